@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Gigaray authors
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "gigaray/image.h"
+
+namespace gigaray {
+
+enum class LightFieldKind {
+  k3D,           ///< Views on a line: t is the same for all, rows are epipolar lines.
+  k4D,           ///< Views in a plane, at any real positions (s, t); a grid may be incomplete.
+  kUnstructured  ///< Posed cameras anywhere.
+};
+
+const char* to_string(LightFieldKind kind);  ///< "3D", "4D", "unstructured"
+
+/// Where a view's rays start. Positions are real numbers in view steps: the median spacing of
+/// neighbouring views is 1 and the centre of the rig is (0, 0). The sign is such that a near point
+/// moves to larger u when s grows, and to larger v when t grows (METHOD: positive d is nearer).
+struct View {
+  std::string name;  ///< Unique; names the view's output folder. Usually the stem of its file.
+  double s = 0;
+  double t = 0;
+};
+
+/// What is known about the rig beyond pixels; turns disparity into depth.
+/// For parallel pinhole cameras: z = focal_px * baseline / (d + focal_px * baseline / focus),
+/// with focus infinite for a rig that is not focused (the second term is then 0).
+struct RigGeometry {
+  std::optional<double> focal_px;        ///< Focal length in level-0 pixels.
+  std::optional<double> baseline;        ///< Scene units per view step.
+  std::optional<double> focus_distance;  ///< Scene units; plane of zero disparity. Empty: infinity.
+  std::string unit;                      ///< Name of the scene unit: "m", "mm"; empty if unknown.
+};
+
+/// Closed range of disparities, level-0 pixels per view step, signed. min < max.
+struct DisparityRange {
+  double min = 0;
+  double max = 0;
+  bool operator==(const DisparityRange&) const = default;
+};
+
+/// Decodes the pictures of a light field, one at a time. Thread-safe.
+class PixelSource {
+ public:
+  virtual ~PixelSource() = default;
+  /// The view as RGB, (v, u, c), gamma-encoded sRGB as stored in the file, 0 … 2^bit_depth() − 1.
+  /// Grey is repeated over the channels, alpha is dropped. Throws Error(kBadInput) naming the file.
+  virtual Image<std::uint16_t> read(int view_idx) const = 0;
+  virtual int bit_depth() const = 0;  ///< 8 or 16, the same for all views.
+};
+
+/// Views, positions, geometry, and where to get the pixels. Cheap to copy; no pixel is held.
+struct LightField {
+  LightFieldKind kind = LightFieldKind::k3D;
+  int width = 0;   ///< u, all views alike
+  int height = 0;  ///< v
+  std::vector<View> views;
+  RigGeometry rig;
+  std::optional<DisparityRange> declared_range;  ///< From a parameter file, if there is one.
+  std::shared_ptr<const PixelSource> pixels;
+  std::string format;              ///< What the adapter recognised, e.g. "image sequence".
+  std::vector<std::string> notes;  ///< What the adapter assumed; one line each, for the user.
+  /// The sign of s (and t) is an assumption that photo-consistency should check.
+  bool sign_is_assumed = false;
+
+  int num_views() const { return int(views.size()); }
+};
+
+/// Throws Error(kBadInput) when something is missing or contradictory: no pixels, fewer than two
+/// views, two views at one place, names that repeat, non-finite positions, sizes below 1.
+void check(const LightField& light_field);
+
+/// Index of the view nearest to the centre of the rig (ties: smaller s, then smaller t).
+int centre_view(const LightField& light_field);
+
+/// All views ordered by distance to the centre of the rig (ties: smaller s, then smaller t).
+std::vector<int> views_from_centre(const LightField& light_field);
+
+/// Moves the rig's centre (middle of the bounding box) to (0, 0) and scales the positions so that
+/// the median distance of a view to its nearest neighbour is 1. Returns that distance in the old
+/// unit, the factor from view steps to the unit that the positions came in. A grid whose step is
+/// known should not be normalised with it: state positions in steps instead.
+double normalise_positions(std::vector<View>& views);
+
+/// 3D when all t are equal, else 4D.
+LightFieldKind kind_from_positions(const std::vector<View>& views);
+
+/// A light field over pictures in memory; used by the synthetic scenes and by tests.
+/// `pictures` are RGB of equal size, one per view.
+std::shared_ptr<const PixelSource> pixels_in_memory(std::vector<Image<std::uint16_t>> pictures,
+                                                    int bit_depth);
+
+}  // namespace gigaray

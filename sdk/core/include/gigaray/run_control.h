@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Gigaray authors
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <string>
+
+#include "gigaray/error.h"
+
+namespace gigaray {
+
+/// Handle that every long call takes: it reports progress and can be asked to stop. The library
+/// itself prints nothing.
+class RunControl {
+ public:
+  /// stage: what is done now, e.g. "level 0"; done of total in the same, arbitrary unit.
+  using ProgressSink = std::function<void(const std::string& stage, double done, double total)>;
+  using MessageSink = std::function<void(const std::string& message)>;
+
+  ProgressSink on_progress;
+  MessageSink on_message;  ///< Notes for the user: what was assumed, chosen or left out.
+
+  /// Asks the running call to stop soon. Safe in a signal handler and from any thread.
+  void cancel() { cancelled_.store(true, std::memory_order_relaxed); }
+  bool cancelled() const { return cancelled_.load(std::memory_order_relaxed); }
+
+  /// Throws Error(kCancelled) when cancel() was called. Long loops call it often.
+  void throw_if_cancelled() const {
+    if (cancelled()) throw Error(ErrorCode::kCancelled, "stopped before the end; nothing was kept");
+  }
+  void progress(const std::string& stage, double done, double total) const {
+    throw_if_cancelled();
+    if (on_progress) on_progress(stage, done, total);
+  }
+  void message(const std::string& text) const {
+    if (on_message) on_message(text);
+  }
+
+ private:
+  std::atomic<bool> cancelled_{false};
+};
+
+}  // namespace gigaray

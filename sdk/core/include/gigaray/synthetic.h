@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Gigaray authors
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "gigaray/image.h"
+#include "gigaray/light_field.h"
+#include "gigaray/run_control.h"
+
+namespace gigaray {
+
+/// What to render: a seeded scene seen by a rig of parallel pinhole views. The same options give
+/// the same pixels on every machine.
+struct SyntheticOptions {
+  /// Name of the scene, one of synthetic_scene_names().
+  std::string scene = "garden";
+  int width = 352;   ///< px, at least 16
+  int height = 240;  ///< px, at least 16
+  int views_s = 17;  ///< views along s; 2 or more in one of the two directions
+  int views_t = 1;   ///< views along t; 1 gives a 3D light field
+  /// Disparity of the farthest and of the nearest surface, px per view step.
+  DisparityRange disparity{-1.0, 1.0};
+  double noise = 0;     ///< Standard deviation of Gaussian sensor noise on the encoded [0, 1] value.
+  double outliers = 0;  ///< Share of views in which something that walks through is seen, 0 … 1.
+  std::uint64_t seed = 1;
+  int bit_depth = 8;  ///< 8 or 16
+  int samples = 4;    ///< Rays per pixel and axis for anti-aliasing of colour; disparity is exact
+                      ///< for the ray through the pixel centre.
+
+  void check() const;  ///< Throws Error(kInvalidArgument) naming the field and its value.
+};
+
+/// The light field with its exact disparity, one map per view, same order as the views.
+struct SyntheticLightField {
+  LightField light_field;
+  std::vector<FloatMap> disparity;  ///< px per view step, finite everywhere
+};
+
+/// "planes"  slanted, textured planes at several depths
+/// "rods"    thin rods and a railing before a textured wall
+/// "sphere"  a curved object before a slanted plane
+/// "wall"    an untextured wall with a few textured objects
+/// "specular" a glossy patch whose highlight moves with the view
+/// "garden"  all of the above in one picture; the demo
+const std::vector<std::string>& synthetic_scene_names();
+
+/// Renders every view. Memory: all views at bit_depth plus one float map per view.
+SyntheticLightField render_synthetic(const SyntheticOptions& options, const RunControl& control);
+
+}  // namespace gigaray
