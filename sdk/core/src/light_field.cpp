@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Gigaray authors
+#include "gigaray/light_field.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <set>
+#include <tuple>
+
+namespace gigaray {
+namespace {
+
+class PicturesInMemory : public PixelSource {
+ public:
+  PicturesInMemory(std::vector<Image<std::uint16_t>> pictures, int bit_depth)
+      : pictures_(std::move(pictures)), bit_depth_(bit_depth) {}
+  Image<std::uint16_t> read(int view_idx) const override { return pictures_.at(view_idx); }
+  int bit_depth() const override { return bit_depth_; }
+
+ private:
+  std::vector<Image<std::uint16_t>> pictures_;
+  int bit_depth_;
+};
+
+[[noreturn]] void bad(const std::string& message) { throw Error(ErrorCode::kBadInput, message); }
+
+double distance(const View& a, const View& b) { return std::hypot(a.s - b.s, a.t - b.t); }
+
+}  // namespace
+
+const char* to_string(LightFieldKind kind) {
+  switch (kind) {
+    case LightFieldKind::k3D:
+      return "3D";
+    case LightFieldKind::k4D:
+      return "4D";
+    case LightFieldKind::kUnstructured:
+      return "unstructured";
+  }
+  return "?";
+}
+
+void check(const LightField& light_field) {
+  if (!light_field.pixels) bad("the light field has no pixels");
+  if (light_field.width < 1 || light_field.height < 1) bad("the pictures are empty");
+  if (light_field.num_views() < 2) bad("a light field needs two views or more, there is only one");
+  std::set<std::string> names;
+  std::set<std::pair<double, double>> places;
+  for (const View& view : light_field.views) {
+    if (!std::isfinite(view.s) || !std::isfinite(view.t))
+      bad("view " + view.name + ": its position is not a finite number");
+    if (!names.insert(view.name).second) bad("two views are named " + view.name);
+    if (!places.insert({view.s, view.t}).second)
+      bad("view " + view.name + " stands at the same position as another view");
+  }
+}
+
+std::vector<int> views_from_centre(const LightField& light_field) {
+  std::vector<int> order(light_field.views.size());
+  std::iota(order.begin(), order.end(), 0);
+  const auto key = [&](int i) {
+    const View& view = light_field.views[i];
+    // Rounded, so that rounding errors of measured positions don't decide between mirror images.
+    const double radius = std::round(1e6 * std::hypot(view.s, view.t));
+    return std::tuple(radius, view.s, view.t);
+  };
+  std::sort(order.begin(), order.end(), [&](int a, int b) { return key(a) < key(b); });
+  return order;
+}
+
+int centre_view(const LightField& light_field) { return views_from_centre(light_field).front(); }
+
+double normalise_positions(std::vector<View>& views) {
+  GIGARAY_CHECK(views.size() >= 2);
+  const auto [s_min, s_max] = std::minmax_element(
+      views.begin(), views.end(), [](const View& a, const View& b) { return a.s < b.s; });
+  const auto [t_min, t_max] = std::minmax_element(
+      views.begin(), views.end(), [](const View& a, const View& b) { return a.t < b.t; });
+  const double s_mid = (s_min->s + s_max->s) / 2;
+  const double t_mid = (t_min->t + t_max->t) / 2;
+
+  std::vector<double> nearest(views.size(), std::numeric_limits<double>::infinity());
+  for (std::size_t i = 0; i < views.size(); ++i)
+    for (std::size_t j = 0; j < views.size(); ++j)
+      if (i != j) nearest[i] = std::min(nearest[i], distance(views[i], views[j]));
+  std::nth_element(nearest.begin(), nearest.begin() + nearest.size() / 2, nearest.end());
+  const double step = nearest[nearest.size() / 2];
+  if (!(step > 0)) bad("the positions of the views are all the same");
+  for (View& view : views) {
+    view.s = (view.s - s_mid) / step;
+    view.t = (view.t - t_mid) / step;
+  }
+  return step;
+}
+
+LightFieldKind kind_from_positions(const std::vector<View>& views) {
+  const bool one_row = std::all_of(views.begin(), views.end(),
+                                   [&](const View& view) { return view.t == views.front().t; });
+  return one_row ? LightFieldKind::k3D : LightFieldKind::k4D;
+}
+
+std::shared_ptr<const PixelSource> pixels_in_memory(std::vector<Image<std::uint16_t>> pictures,
+                                                    int bit_depth) {
+  return std::make_shared<PicturesInMemory>(std::move(pictures), bit_depth);
+}
+
+}  // namespace gigaray
