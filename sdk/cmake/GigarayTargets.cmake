@@ -2,7 +2,8 @@
 include_guard()
 
 add_library(gigaray_warnings INTERFACE)
-target_compile_options(gigaray_warnings INTERFACE -Wall -Wextra -Wno-unused-parameter)
+target_compile_options(gigaray_warnings INTERFACE -Wall -Wextra -Wno-unused-parameter
+  -Wno-restrict)  # GCC 12 sees overlaps in std::string that are not there
 if(GIGARAY_DEVELOPER_MODE)
   target_compile_options(gigaray_warnings INTERFACE -Werror)
 endif()

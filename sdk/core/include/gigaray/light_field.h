@@ -21,8 +21,9 @@ enum class LightFieldKind {
 const char* to_string(LightFieldKind kind);  ///< "3D", "4D", "unstructured"
 
 /// Where a view's rays start. Positions are real numbers in view steps: the median spacing of
-/// neighbouring views is 1 and the centre of the rig is (0, 0). The sign is such that a near point
-/// moves to larger u when s grows, and to larger v when t grows (METHOD: positive d is nearer).
+/// neighbouring views is 1 and the centre of the rig is (0, 0). A point seen at
+/// (u, v) in view (ŝ, t̂) is seen at (u + (ŝ − s)·d, v + (t̂ − t)·d) in view (s, t) (eq. 3, 9): with a
+/// camera that moves right, near points move left. Positive d is nearer.
 struct View {
   std::string name;  ///< Unique; names the view's output folder. Usually the stem of its file.
   double s = 0;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -17,8 +18,8 @@ namespace gigaray {
 struct SyntheticOptions {
   /// Name of the scene, one of synthetic_scene_names().
   std::string scene = "garden";
-  int width = 352;   ///< px, at least 16
-  int height = 240;  ///< px, at least 16
+  int width = 352;   ///< px, 16 … 16384
+  int height = 240;  ///< px, 16 … 16384
   int views_s = 17;  ///< views along s; 2 or more in one of the two directions
   int views_t = 1;   ///< views along t; 1 gives a 3D light field
   /// Disparity of the farthest and of the nearest surface, px per view step.
@@ -27,8 +28,9 @@ struct SyntheticOptions {
   double outliers = 0;  ///< Share of views in which something that walks through is seen, 0 … 1.
   std::uint64_t seed = 1;
   int bit_depth = 8;  ///< 8 or 16
-  int samples = 4;    ///< Rays per pixel and axis for anti-aliasing of colour; disparity is exact
-                      ///< for the ray through the pixel centre.
+  int samples = 4;    ///< Rays per pixel and axis, 1 … 16, where a pixel sees an edge; inside a surface
+                      ///< two are enough, because no texture is finer than three pixels. Disparity
+                      ///< is exact for the ray through the pixel centre.
 
   void check() const;  ///< Throws Error(kInvalidArgument) naming the field and its value.
 };
@@ -47,7 +49,19 @@ struct SyntheticLightField {
 /// "garden"  all of the above in one picture; the demo
 const std::vector<std::string>& synthetic_scene_names();
 
-/// Renders every view. Memory: all views at bit_depth plus one float map per view.
+/// Renders every view, on all cores. Memory: 6 bytes per pixel and view plus one float map per view.
 SyntheticLightField render_synthetic(const SyntheticOptions& options, const RunControl& control);
+
+/// What render_synthetic would return, without rendering: everything but the pixels.
+LightField describe_synthetic(const SyntheticOptions& options);
+
+/// Takes one finished view. Called from several threads at once, in any order.
+using SyntheticViewSink =
+    std::function<void(int view_idx, Image<std::uint16_t> picture, FloatMap disparity)>;
+
+/// Renders view by view and keeps none: for light fields larger than memory. The same pixels as
+/// render_synthetic. An exception of the sink stops the run and is thrown again.
+void render_synthetic_views(const SyntheticOptions& options, const RunControl& control,
+                            const SyntheticViewSink& sink);
 
 }  // namespace gigaray

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Gigaray authors
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <string_view>
+
+namespace gigaray {
+
+/// Writes a file beside its place and renames it there, so that nobody ever sees half of it; the
+/// temporary is removed when anything fails. Throws Error(kIo) naming the place.
+void write_file_atomically(const std::filesystem::path& path, std::string_view bytes);
+
+/// The same for a writer that wants a path: write(temporary) makes the file.
+void write_file_atomically(const std::filesystem::path& path,
+                           const std::function<void(const std::filesystem::path&)>& write);
+
+/// An output folder that appears only when it is complete.
+///
+///   AtomicFolder out("out", "gigaray depth");
+///   write_pfm(out.path() / "disparity.pfm", map);
+///   out.commit();
+///
+/// Without commit() — an exception, an interrupt — everything written is removed.
+class AtomicFolder {
+ public:
+  /// Creates TARGET.partial-<process id> beside `target`, and the folders above. A target that
+  /// exists is accepted when it is an empty folder, or when its gigaray.json has "format": `format`,
+  /// an earlier output of the same kind: commit() replaces it. Anything else is refused with
+  /// Error(kInvalidArgument); Error(kIo) when the place can't be written.
+  AtomicFolder(const std::filesystem::path& target, std::string format);
+  ~AtomicFolder();
+  AtomicFolder(const AtomicFolder&) = delete;
+  AtomicFolder& operator=(const AtomicFolder&) = delete;
+
+  /// Where to write; gone after commit().
+  const std::filesystem::path& path() const { return partial_; }
+
+  /// Puts the folder in its place. Throws Error(kIo); the earlier output is then still there.
+  void commit();
+
+ private:
+  void check_target() const;
+
+  std::filesystem::path target_;
+  std::filesystem::path partial_;
+  std::string format_;
+};
+
+}  // namespace gigaray

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Gigaray authors
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+
+#include "gigaray/image.h"
+
+namespace gigaray {
+
+/// Writes a PNG, whole or not at all. picture: 1 (grey) or 3 (RGB) channels, values
+/// 0 … 2^bit_depth − 1; bit_depth 8 or 16. Throws Error(kIo) when the place can't be written.
+void write_png(const std::filesystem::path& path, const Image<std::uint16_t>& picture,
+               int bit_depth);
+
+/// Reads any picture that a light field may be made of: RGB (v, u, c); grey is repeated, alpha is
+/// dropped, the orientation of the camera is applied. bit_depth, if given, becomes 8 or 16.
+/// Throws Error(kBadInput) naming the file when it is damaged, cut short or no picture.
+Image<std::uint16_t> read_picture(const std::filesystem::path& path, int* bit_depth = nullptr);
+
+}  // namespace gigaray

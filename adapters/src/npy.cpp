@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Gigaray authors
+// NumPy arrays, https://numpy.org/doc/stable/reference/generated/numpy.lib.format.html: magic,
+// version, length of the header, a Python dictionary as text, then the values. Shape (v, u).
+#include <bit>
+#include <regex>
+
+#include "float_bytes.h"
+#include "gigaray/adapters/atomic_output.h"
+#include "gigaray/adapters/maps.h"
+#include "text.h"
+
+namespace gigaray {
+namespace {
+
+constexpr std::string_view kMagic = "\x93NUMPY";
+constexpr std::size_t kAlignment = 64;  // of the first value
+constexpr double kMaxSize = 1 << 20;    // px per axis
+
+}  // namespace
+
+FloatMap read_npy(const std::filesystem::path& path) {
+  const std::string bytes = read_bytes(path);
+  const auto bad = [&](const std::string& what) {
+    return Error(ErrorCode::kBadInput, path.string() + ": " + what);
+  };
+  if (!bytes.starts_with(kMagic) || bytes.size() < 12) throw bad("is no NumPy file");
+  const auto byte = [&](std::size_t i) { return std::size_t(static_cast<unsigned char>(bytes[i])); };
+  const bool version_1 = byte(6) == 1;
+  const std::size_t begin = version_1 ? 10 : 12;
+  const std::size_t length =
+      byte(8) | byte(9) << 8 | (version_1 ? 0 : byte(10) << 16 | byte(11) << 24);
+  if (length > bytes.size() - begin) throw bad("is cut short in its header");
+  const std::string header = bytes.substr(begin, length);
+
+  std::smatch type, shape;
+  static const std::regex kType(R"('descr'\s*:\s*'([<>])f([48])')");
+  static const std::regex kShape(R"('shape'\s*:\s*\(\s*(\d{1,9})\s*,\s*(\d{1,9})\s*,?\s*\))");
+  if (!std::regex_search(header, type, kType))
+    throw bad("holds another type than float32 or float64");
+  if (header.find("'fortran_order': False") == std::string::npos)
+    throw bad("is stored in Fortran order; save it with numpy.ascontiguousarray");
+  if (!std::regex_search(header, shape, kShape)) throw bad("has not two dimensions (v, u)");
+  const double height = *parse_number(shape[1].str()), width = *parse_number(shape[2].str());
+  if (width < 1 || height < 1 || width > kMaxSize || height > kMaxSize)
+    throw bad("has no valid size");
+
+  const bool is_double = type[2] == "8";
+  FloatMap map;
+  const std::size_t count = std::size_t(width) * std::size_t(height);
+  if (bytes.size() - begin - length != count * (is_double ? 8 : 4))
+    throw bad("is cut short or too long for its shape");
+  map = FloatMap(int(width), int(height));
+  const char* values = bytes.data() + begin + length;
+  const auto order = type[1] == "<" ? std::endian::little : std::endian::big;
+  if (is_double)
+    load_floats<double>(values, order, map.data(), count);
+  else
+    load_floats<float>(values, order, map.data(), count);
+  return map;
+}
+
+void write_npy(const std::filesystem::path& path, const FloatMap& map) {
+  GIGARAY_CHECK(map.channels() == 1 && !map.empty());
+  std::string header = "{'descr': '<f4', 'fortran_order': False, 'shape': (" +
+                       std::to_string(map.height()) + ", " + std::to_string(map.width()) + "), }";
+  const std::size_t used = kMagic.size() + 4 + header.size() + 1;
+  header.append((kAlignment - used % kAlignment) % kAlignment, ' ');
+  header += '\n';
+  std::string bytes(kMagic);
+  bytes += {'\x01', '\x00', char(header.size() & 0xff), char(header.size() >> 8)};
+  bytes += header;
+  append_floats(bytes, map.data(), map.size());
+  write_file_atomically(path, bytes);
+}
+
+}  // namespace gigaray

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Gigaray authors
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace gigaray {
+
+/// The whole text as a number, whatever the locale; NaN and infinities are numbers. Empty if it is
+/// anything else.
+std::optional<double> parse_number(std::string_view text);
+
+/// Text without white space at both ends.
+std::string_view trimmed(std::string_view text);
+
+/// Lower case of ASCII letters.
+std::string lower(std::string text);
+
+/// Words between white space, commas and semicolons.
+std::vector<std::string> split_words(std::string_view line);
+
+/// Everything in a file. Throws Error(kIo) naming it.
+std::string read_bytes(const std::filesystem::path& path);
+
+}  // namespace gigaray

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Gigaray authors
+#include "console.h"
+
+#include <fmt/format.h>
+#include <signal.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <cstdio>
+
+namespace gigaray::cli {
+namespace {
+
+constexpr int kBarWidth = 24;
+constexpr auto kRedraw = std::chrono::milliseconds(100);
+
+std::atomic<RunControl*> running{nullptr};
+
+extern "C" void cancel_on_signal(int) {
+  if (RunControl* control = running.load()) control->cancel();
+}
+
+// SA_RESETHAND: the second signal finds the default handler and ends the program.
+void install_handlers(void (*handler)(int)) {
+  struct sigaction action = {};
+  action.sa_handler = handler;
+  action.sa_flags = int(SA_RESETHAND);
+  sigemptyset(&action.sa_mask);
+  for (const int signal : {SIGINT, SIGTERM}) sigaction(signal, &action, nullptr);
+}
+
+int terminal_width() {
+  winsize size = {};
+  return ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : 80;
+}
+
+std::string duration(double seconds) {
+  const long whole = std::lround(std::ceil(seconds));
+  if (whole < 60) return fmt::format("{} s", whole);
+  if (whole < 3600) return fmt::format("{}:{:02} min", whole / 60, whole % 60);
+  return fmt::format("{}:{:02} h", whole / 3600, whole % 3600 / 60);
+}
+
+}  // namespace
+
+Console::Console(RunControl& control) : is_terminal_(isatty(STDERR_FILENO) != 0) {
+  GIGARAY_CHECK(running.exchange(&control) == nullptr);
+  control.on_progress = [this](const std::string& stage, double done, double total) {
+    show_progress(stage, done, total);
+  };
+  control.on_message = [this](const std::string& text) { show_message(text); };
+  install_handlers(cancel_on_signal);
+}
+
+Console::~Console() {
+  install_handlers(SIG_DFL);
+  running = nullptr;
+  clear_bar();
+}
+
+void Console::show_progress(const std::string& stage, double done, double total) {
+  const std::lock_guard lock(mutex_);
+  const auto now = Clock::now();
+  if (stage != stage_) {
+    stage_ = stage;
+    stage_start_ = now;
+    if (!is_terminal_) fmt::print(stderr, "{}\n", stage);
+  } else if (done < total && now - last_drawn_ < kRedraw) {
+    return;
+  }
+  if (!is_terminal_) return;
+  last_drawn_ = now;
+
+  const double share = total > 0 ? std::clamp(done / total, 0.0, 1.0) : 0.0;
+  const double seconds = std::chrono::duration<double>(now - stage_start_).count();
+  const int filled = int(std::lround(share * kBarWidth));
+  std::string line = fmt::format("{}  [{:#<{}}{:<{}}] {:3.0f} %", stage, "", filled, "",
+                                 kBarWidth - filled, 100 * share);
+  if (seconds > 0.5 && share > 0)
+    line += fmt::format("  {:.3g}/s  {} left", done / seconds,
+                        duration(seconds * (1 - share) / share));
+  line.resize(std::min(line.size(), std::size_t(std::max(terminal_width() - 1, 1))));
+  fmt::print(stderr, "\r{}\x1b[K", line);
+  std::fflush(stderr);
+  bar_visible_ = true;
+}
+
+void Console::show_message(const std::string& text) {
+  const std::lock_guard lock(mutex_);
+  clear_bar();
+  fmt::print(stderr, "{}\n", text);
+}
+
+void Console::clear_bar() {
+  if (bar_visible_) fmt::print(stderr, "\r\x1b[K");
+  bar_visible_ = false;
+}
+
+}  // namespace gigaray::cli

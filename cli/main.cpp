@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Gigaray authors
+//
+// The program gigaray: a table of commands, one of which is run.
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <exception>
+#include <new>
+#include <string>
+
+#include "command.h"
+#include "console.h"
+
+namespace gigaray::cli {
+
+#define GIGARAY_COMMAND(name) Run name##_command(CLI::App& app);
+#include "commands.inc"
+#undef GIGARAY_COMMAND
+
+namespace {
+
+enum ExitCode { kDone = 0, kFailed = 1, kWrongUsage = 2, kInterrupted = 130 };
+
+struct Command {
+  const char* name;
+  Declare declare;
+};
+
+constexpr Command kCommands[] = {
+#define GIGARAY_COMMAND(name) {#name, name##_command},
+#include "commands.inc"
+#undef GIGARAY_COMMAND
+};
+
+// A message of a library may hold line breaks; what a failure prints is one line.
+std::string one_line(std::string text) {
+  for (char& letter : text)
+    if (letter == '\n' || letter == '\r') letter = ' ';
+  return text;
+}
+
+int exit_code(ErrorCode code) {
+  switch (code) {
+    case ErrorCode::kInvalidArgument:
+      return kWrongUsage;
+    case ErrorCode::kCancelled:
+      return kInterrupted;
+    default:
+      return kFailed;
+  }
+}
+
+int run(const std::string& command, const Run& what) {
+  const auto fail = [&](const char* message, int code) {
+    fmt::print(stderr, "gigaray {}: {}\n", command, one_line(message));
+    return code;
+  };
+  try {
+    RunControl control;
+    const Console console(control);
+    what(control);
+  } catch (const Error& error) {
+    return fail(error.what(), exit_code(error.code()));
+  } catch (const std::bad_alloc&) {
+    return fail("out of memory; use a smaller input or a smaller --memory", kFailed);
+  } catch (const std::exception& error) {
+    return fail(error.what(), kFailed);
+  }
+  // A full disk or a closed pipe shows when the buffer is written at last.
+  if (std::fflush(stdout) != 0) return fail("the result can't be written to stdout", kFailed);
+  return kDone;
+}
+
+int main(int argc, char** argv) {
+  CLI::App program("Depth for every view of a light field", "gigaray");
+  program.set_version_flag("--version", "gigaray " GIGARAY_VERSION);
+  program.require_subcommand(1);
+
+  std::string chosen;
+  Run what;
+  for (const Command& command : kCommands) {
+    CLI::App& app = *program.add_subcommand(command.name);
+    const Run run_it = command.declare(app);
+    app.callback([&, run_it, name = command.name] {
+      chosen = name;
+      what = run_it;
+    });
+  }
+  try {
+    program.parse(argc, argv);
+  } catch (const CLI::Success& success) {  // --help, --version
+    return program.exit(success);
+  } catch (const CLI::ParseError& error) {
+    std::string command = "gigaray";
+    for (const CLI::App* app : program.get_subcommands()) command += " " + app->get_name();
+    fmt::print(stderr, "{}: {} (see {} --help)\n", command, one_line(error.what()), command);
+    return kWrongUsage;
+  }
+  return run(chosen, what);
+}
+
+}  // namespace
+}  // namespace gigaray::cli
+
+int main(int argc, char** argv) { return gigaray::cli::main(argc, argv); }

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Gigaray authors
+#pragma once
+
+#include <variant>
+
+#include "gigaray/samplers/epi_sampler.h"
+#include "gigaray/samplers/grid_sampler.h"
+
+namespace gigaray {
+
+/// The sampler of a light field, chosen at run time. Visited once per run.
+using AnySampler = std::variant<EpiSampler, GridSampler>;
+
+/// The sampler for the kind of the light field. Throws Error(kBadInput) for a kind without one.
+AnySampler make_sampler(const LightField& light_field);
+
+}  // namespace gigaray

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Gigaray authors
+#pragma once
+
+#include "gigaray/ray_sampler.h"
+
+namespace gigaray {
+
+/// 3D light fields: views on a line, rays of a scene point form a straight line in one epipolar-plane
+/// image (eq. 3). Rows of different v never meet.
+class EpiSampler {
+ public:
+  static constexpr std::string_view kKernelFile = "epi_sampler.cl";
+  static constexpr int kViewTableWidth = 1;  ///< s
+
+  /// Positions s of all views, in view steps. Throws Error(kBadInput) when a view has another t.
+  explicit EpiSampler(const std::vector<View>& views);
+
+  int num_views() const { return int(s_.size()); }
+  std::optional<Ray> locate(int ref, int other, Ray ray) const {
+    return Ray{ray.u + (s_[ref] - s_[other]) * ray.hypothesis, ray.v, ray.hypothesis};
+  }
+  RowRange rows_needed(RowRange rows, HypothesisRange, int height) const {
+    return grown(rows, 0, height);
+  }
+  EpiSampler at_level(int level) const;
+  std::vector<float> view_table() const { return {s_.begin(), s_.end()}; }
+
+ private:
+  std::vector<double> s_;  // times 2^-level
+};
+static_assert(RaySampler<EpiSampler>);
+
+}  // namespace gigaray

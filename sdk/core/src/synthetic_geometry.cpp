@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Gigaray authors
+#include <algorithm>
+#include <cmath>
+#include <initializer_list>
+
+#include "synthetic_scene.h"
+
+namespace gigaray::synthetic {
+namespace {
+
+/// Z of the farthest surface over that of the nearest: enough for a lively perspective.
+constexpr double kDepthRatio = 2.5;
+/// Focal length over the longer side of the picture.
+constexpr double kFocalOverSize = 1.2;
+/// +1: a near point moves to larger u when s grows (light_field.h). The camera that stands at
+/// positive s is then the one at negative X.
+constexpr double kShiftSign = 1;
+
+/// Smallest root above zero of a z² + 2 b z + c, given that the ray starts outside; else kNoHit.
+double first_root(double a, double b, double c) {
+  const double discriminant = b * b - a * c;
+  if (discriminant < 0) return kNoHit;
+  const double z = (-b - std::sqrt(discriminant)) / a;
+  return z > 0 ? z : kNoHit;
+}
+
+double intersect_ball(Vec3d centre, double radius, Vec3d origin, Vec3d direction) {
+  const Vec3d from_centre = origin - centre;
+  return first_root(dot(direction, direction), dot(direction, from_centre),
+                    dot(from_centre, from_centre) - radius * radius);
+}
+
+double intersect_rod(const Primitive& rod, Vec3d origin, Vec3d direction) {
+  const Vec3d from_end = origin - rod.centre;
+  const double along = dot(rod.axis, from_end), climb = dot(rod.axis, direction);
+  const Vec3d m = from_end - along * rod.axis, n = direction - climb * rod.axis;
+  const double a = dot(n, n);
+  if (a > 0) {
+    const double z = first_root(a, dot(m, n), dot(m, m) - rod.radius * rod.radius);
+    if (z == kNoHit) return kNoHit;
+    const double place = along + z * climb;
+    if (place >= 0 && place <= rod.length) return z;
+  }
+  return std::min(
+      intersect_ball(rod.centre, rod.radius, origin, direction),
+      intersect_ball(rod.centre + rod.length * rod.axis, rod.radius, origin, direction));
+}
+
+bool card_covers(const Primitive& card, double x, double y) {
+  if (card.kind == Primitive::Kind::kCard)
+    return x >= card.x0 && x <= card.x1 && y >= card.y0 && y <= card.y1;
+  const double ex = (2 * x - card.x0 - card.x1) / (card.x1 - card.x0);
+  const double ey = (2 * y - card.y0 - card.y1) / (card.y1 - card.y0);
+  return ex * ex + ey * ey <= 1;
+}
+
+}  // namespace
+
+Rig::Rig(const SyntheticOptions& options)
+    : width(options.width),
+      height(options.height),
+      cx((options.width - 1) / 2.0),
+      cy((options.height - 1) / 2.0),
+      focal(kFocalOverSize * std::max(options.width, options.height)),
+      far_z(kDepthRatio),
+      near_disparity((options.disparity.max - options.disparity.min) * far_z / (far_z - 1)),
+      offset(options.disparity.max - near_disparity) {}
+
+Vec3d Rig::point(double x, double y, double nearness) const {
+  const double depth = z(nearness);
+  return {x * width * depth / focal, y * height * depth / focal, depth};
+}
+
+RigGeometry Rig::geometry() const {
+  // A positive offset means cameras that diverge; there is no focus distance to state.
+  if (offset > 0) return {};
+  std::optional<double> focus_distance;
+  if (offset < 0) focus_distance = -near_disparity / offset;
+  return {focal, near_disparity / focal, focus_distance, "m"};
+}
+
+Camera::Camera(const Rig& rig, const View& view)
+    : origin{-kShiftSign * view.s * rig.near_disparity / rig.focal,
+             -kShiftSign * view.t * rig.near_disparity / rig.focal, 0},
+      u0(rig.cx + kShiftSign * view.s * rig.offset),
+      v0(rig.cy + kShiftSign * view.t * rig.offset),
+      inverse_focal(1 / rig.focal) {}
+
+double intersect(const Primitive& primitive, const Rig& rig, Vec3d origin, Vec3d direction) {
+  switch (primitive.kind) {
+    case Primitive::Kind::kCard:
+    case Primitive::Kind::kDisc: {
+      const double z = (primitive.plane_k - dot(primitive.normal, origin)) /
+                       dot(primitive.normal, direction);
+      if (!(z > 0) || z == kNoHit) return kNoHit;
+      const Vec3d p = origin + z * direction;
+      return card_covers(primitive, rig.focal * p.x / z, rig.focal * p.y / z) ? z : kNoHit;
+    }
+    case Primitive::Kind::kBall:
+      return intersect_ball(primitive.centre, primitive.radius, origin, direction);
+    case Primitive::Kind::kRod:
+      return intersect_rod(primitive, origin, direction);
+  }
+  return kNoHit;
+}
+
+Vec3d surface_normal(const Primitive& primitive, Vec3d p, Vec3d direction) {
+  Vec3d normal = primitive.normal;
+  if (primitive.kind == Primitive::Kind::kBall) {
+    normal = p - primitive.centre;
+  } else if (primitive.kind == Primitive::Kind::kRod) {
+    const Vec3d from_end = p - primitive.centre;
+    const double place = std::clamp(dot(from_end, primitive.axis), 0.0, primitive.length);
+    normal = from_end - place * primitive.axis;
+  }
+  normal = normalised(normal);
+  return dot(normal, direction) > 0 ? -1.0 * normal : normal;
+}
+
+Vec3f texture_point(const Primitive& primitive, Vec3d p) {
+  if (primitive.kind == Primitive::Kind::kBall || primitive.kind == Primitive::Kind::kRod)
+    return to_float(p);
+  return {float(dot(p, primitive.along)), float(dot(p, primitive.across)), 0};
+}
+
+PixelBox bounds(const Primitive& primitive, const Rig& rig, const Camera& camera) {
+  PixelBox box{kNoHit, -kNoHit, kNoHit, -kNoHit};
+  const auto grow = [&](Vec3d p) {
+    const double u = camera.u0 + rig.focal * (p.x - camera.origin.x) / p.z;
+    const double v = camera.v0 + rig.focal * (p.y - camera.origin.y) / p.z;
+    box = {std::min(box.u0, u), std::max(box.u1, u), std::min(box.v0, v), std::max(box.v1, v)};
+  };
+  const PixelBox everywhere{-kNoHit, kNoHit, -kNoHit, kNoHit};
+  if (primitive.kind == Primitive::Kind::kCard || primitive.kind == Primitive::Kind::kDisc) {
+    for (const double x : {primitive.x0, primitive.x1}) {
+      for (const double y : {primitive.y0, primitive.y1}) {
+        if (!std::isfinite(x) || !std::isfinite(y)) return everywhere;
+        const Vec3d direction{x / rig.focal, y / rig.focal, 1};
+        const double z = primitive.plane_k / dot(primitive.normal, direction);
+        if (!(z > 0)) return everywhere;
+        grow(z * direction);
+      }
+    }
+    return box;
+  }
+  const double r = primitive.radius;
+  for (const double place : {0.0, primitive.length}) {
+    const Vec3d c = primitive.centre + place * primitive.axis;
+    if (c.z - r <= 0) return everywhere;
+    for (const double dx : {-r, r})
+      for (const double dy : {-r, r})
+        for (const double dz : {-r, r}) grow(c + Vec3d{dx, dy, dz});
+  }
+  return box;
+}
+
+}  // namespace gigaray::synthetic

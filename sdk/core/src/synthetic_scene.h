@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Gigaray authors
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "gigaray/light_field.h"
+#include "gigaray/synthetic.h"
+#include "synthetic_vec.h"
+
+namespace gigaray::synthetic {
+
+/// Gamma-encoded RGB in [0, 1]. Everything is mixed in the encoded values: the pictures need to be
+/// plausible and the same everywhere, not radiometric.
+using Colour = Vec3f;
+
+/// Parallel pinhole cameras whose pictures are shifted so that disparity is signed.
+/// A point (X, Y, Z) is seen in view (s, t), with d = near_disparity / Z + offset, at
+/// u = cx + focal X / Z + s d, v = cy + focal Y / Z + t d (the sign of light_field.h).
+/// The nearest surfaces stand at Z = 1, the farthest at Z = far_z.
+struct Rig {
+  explicit Rig(const SyntheticOptions& options);
+
+  double width = 0, height = 0;    ///< px
+  double cx = 0, cy = 0;           ///< px, the middle of the picture
+  double focal = 0;                ///< px
+  double far_z = 0;                ///< scene units
+  double near_disparity = 0;       ///< px per view step at Z = 1, without the offset
+  double offset = 0;               ///< px per view step, the disparity of infinity
+
+  double disparity(double z) const { return near_disparity / z + offset; }
+  /// Z of a nearness in [0, 1]: 0 the far end of the range, 1 the near end. Linear in disparity.
+  double z(double nearness) const { return 1 / (1 / far_z + nearness * (1 - 1 / far_z)); }
+  /// The scene point seen in the centre view at a place of the picture; x and y are fractions of
+  /// width and height from the middle, -0.5 … 0.5 inside.
+  Vec3d point(double x, double y, double nearness) const;
+  /// Scene units of one pixel at Z = 1.
+  double pixel() const { return 1 / focal; }
+  RigGeometry geometry() const;
+};
+
+/// Where a view's rays start and how its pixels map to directions.
+struct Camera {
+  Camera(const Rig& rig, const View& view);
+  Vec3d origin;
+  double u0 = 0, v0 = 0, inverse_focal = 0;
+  /// Direction with z = 1, so that the parameter along the ray is Z.
+  Vec3d direction(double u, double v) const {
+    return {(u - u0) * inverse_focal, (v - v0) * inverse_focal, 1};
+  }
+};
+
+enum class Pattern { kPlain, kNoise, kBricks, kPlanks, kMarble, kChecks };
+
+/// What a surface looks like; its texture is attached to the surface.
+struct Material {
+  Pattern pattern = Pattern::kNoise;
+  Colour dark, mid, light;
+  float scale = 0.2f;        ///< Coarsest wavelength, scene units.
+  float persistence = 0.7f;  ///< Amplitude of each finer octave; larger is rougher.
+  float gloss = 0;        ///< Strength of the highlight, 0 … 1.
+  int gloss_power = 7;    ///< Highlight width: the cosine is raised to 2^gloss_power.
+  Vec3f gloss_direction;  ///< Unit vector towards the lamp that is mirrored.
+  std::uint32_t seed = 0;
+};
+
+/// The material's colour, lit. p: texture_point; normal: unit, towards the viewer; to_viewer: unit;
+/// footprint: size of a pixel there, scene units.
+Colour shade(const Material& material, Vec3f p, Vec3f normal, Vec3f to_viewer, float footprint);
+
+/// One surface. A card is the part of the plane dot(normal, P) = plane_k that the centre view sees
+/// inside [x0, x1] × [y0, y1] (px from the middle; may be infinite), or in the ellipse inscribed.
+struct Primitive {
+  enum class Kind { kCard, kDisc, kBall, kRod };
+  Kind kind = Kind::kCard;
+  int material = 0;
+  Vec3d normal;  ///< Card: as above, of any length.
+  double plane_k = 0;
+  Vec3d along, across;  ///< Card: unit vectors in the plane, the axes of its texture.
+  double x0 = 0, x1 = 0, y0 = 0, y1 = 0;
+  Vec3d centre;  ///< Ball: centre. Rod: one end of its axis.
+  Vec3d axis;    ///< Rod: unit vector to the other end.
+  double length = 0;
+  double radius = 0;  ///< Ball and rod, scene units.
+};
+
+inline constexpr double kNoHit = std::numeric_limits<double>::infinity();
+
+/// Z of the first hit of the ray origin + Z direction (direction.z = 1), or kNoHit. Exact up to
+/// rounding: closed forms only.
+double intersect(const Primitive& primitive, const Rig& rig, Vec3d origin, Vec3d direction);
+
+/// Unit normal at a point of the surface, on the side of the viewer.
+Vec3d surface_normal(const Primitive& primitive, Vec3d p, Vec3d direction);
+
+/// Where a point of the surface lies in its texture: along, across, 0 on a card, the scene point
+/// itself on a ball or a rod.
+Vec3f texture_point(const Primitive& primitive, Vec3d p);
+
+/// Pixels that a primitive may cover in a view; generous by up to the depth of its bounding box.
+struct PixelBox {
+  double u0, u1, v0, v1;
+};
+PixelBox bounds(const Primitive& primitive, const Rig& rig, const Camera& camera);
+
+/// A rig and what stands before it. One primitive at least fills the picture of every view.
+struct Scene {
+  explicit Scene(const Rig& r) : rig(r) {}
+  Rig rig;
+  std::vector<Material> materials;
+  std::vector<Primitive> primitives;
+};
+
+Scene build_scene(const SyntheticOptions& options);
+
+/// Positions and names of the views, order t * views_s + s.
+std::vector<View> make_views(const SyntheticOptions& options);
+
+struct RenderedView {
+  Image<std::uint16_t> picture;
+  FloatMap disparity;
+};
+RenderedView render_view(const Scene& scene, const SyntheticOptions& options, int view_idx,
+                         const View& view, bool has_outlier, const RunControl& control);
+
+}  // namespace gigaray::synthetic

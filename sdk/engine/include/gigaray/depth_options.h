@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Gigaray authors
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "gigaray/light_field.h"
+
+namespace gigaray {
+
+/// Edge confidence Ce and the mask Me (eq. 2): where a depth estimate is worth trying.
+struct EdgeOptions {
+  int radius = 4;           ///< Half the 1D window in px; 4 is the paper's 9 px. 1 … 16
+  bool squared = true;      ///< Sum squared colour distances (true) or plain ones.
+  float threshold = 0.02f;  ///< Pixels with Ce above it are tried. Negative: all pixels.
+  bool opening = true;      ///< Morphological opening of the mask: drops isolated pixels.
+};
+
+/// Density score S (eq. 3–5) of a hypothesis.
+struct ScoreOptions {
+  bool linear_rgb = true;  ///< Compare linear RGB (sRGB EOTF); false: values as encoded.
+  bool cubic = false;      ///< Catmull-Rom interpolation of samples; false: linear.
+  /// Triangle kernels of colour and of the gradient (docs/method.md); false: the paper's Epanechnikov
+  /// kernel of colour.
+  bool gradient = false;
+  float bandwidth = 0.02f;           ///< Kernel bandwidth h, colour in [0, 1]. > 0
+  float gradient_bandwidth = 0.003f; ///< The same for gradients. > 0; used with `gradient`
+  float gradient_share = 0.7f;       ///< Share of the gradient in the kernel, 0 … 1
+  /// Estimate both bandwidths (and SupportOptions::sigma_colour) from the noise of the light field.
+  bool from_noise = false;
+  int mean_shift_iterations = 10;  ///< Updates of the mean radiance (eq. 5); 0 … 100
+  bool stop_early = true;          ///< Stop mean-shift where it moves no more; see density_score.cl
+  /// Fewer views that see the point: the hypothesis is not tested. A share of all views, 0 … 1.
+  float min_views = 0.2f;
+  /// The sum of kernels is divided by the number of views that see the point, but at least by this
+  /// share of all views. 0 … 1
+  float floor_views = 0;
+};
+
+/// Bilateral support of the scores by neighbouring pixels, before the winner is chosen.
+struct SupportOptions {
+  int radius = 0;               ///< Half the window in px; 0: none (per-ray scores, as the paper). 0 … 8
+  float sigma_colour = 0.03f;   ///< > 0
+  float sigma_space = 4;        ///< px, > 0
+};
+
+/// The winner, its confidence and the bilateral median (eq. 6–8).
+struct WinnerOptions {
+  bool refine = false;             ///< Vertex of the parabola through winner and neighbours.
+  int median_radius = 5;           ///< Half the window in px; 5 is the paper's 11×11. 0: none. 0 … 8
+  float median_tolerance = 0.1f;   ///< Colour distance ε. > 0
+  bool weigh_by_edge = true;       ///< Confidence is Ce · (Smax − mean S), eq. 7; false: without Ce.
+  float min_confidence = 0;        ///< Estimates at or below it are left to coarser levels.
+};
+
+/// Propagation and fine-to-coarse.
+struct PropagationOptions {
+  float tolerance = 0.1f;  ///< Colour distance ε between mean radiance and a ray. > 0
+  bool fine_to_coarse = true;  ///< false: level 0 alone; what it can't decide stays empty.
+  int final_median_radius = 1; ///< Half the window of the final plain median; 0: none.
+};
+
+/// Everything that decides the result. paper_options() and auto_options() fill it.
+struct DepthOptions {
+  std::string preset = "auto";  ///< Name only, for reports.
+  /// Tested range, level-0 px per view step. Empty: from the light field, else estimated.
+  std::optional<DisparityRange> disparity;
+  /// Number of hypotheses, 2 … 4096; 0: one every `hypothesis_step`.
+  int hypotheses = 0;
+  double hypothesis_step = 0.035;  ///< level-0 px per view step
+  EdgeOptions edge;
+  ScoreOptions score;
+  SupportOptions support;
+  WinnerOptions winner;
+  PropagationOptions propagation;
+
+  /// Indices of the views that get depth. Empty: all.
+  std::vector<int> views;
+
+  /// Most memory to use, bytes; 0: three quarters of what is free. The result does not depend on it.
+  double memory_bytes = 0;
+  /// Where large intermediate data go when memory does not hold them. Empty: the folder for temporary
+  /// files. Nothing is left there, even after a crash.
+  std::string work_folder;
+
+  /// Throws Error(kInvalidArgument) naming the field and its value.
+  void check() const;
+};
+
+/// The paper's steps and constants (METHOD, presets): per-ray scores and nothing else.
+DepthOptions paper_options();
+
+/// The default: robust kernels of colour and gradient, bilateral support, sub-hypothesis winner.
+DepthOptions auto_options();
+
+/// By name, "paper" or "auto". Throws Error(kInvalidArgument).
+DepthOptions preset_options(const std::string& name);
+
+}  // namespace gigaray

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Gigaray authors
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "gigaray/backend.h"
+#include "gigaray/depth_options.h"
+#include "gigaray/light_field.h"
+#include "gigaray/run_control.h"
+
+namespace gigaray {
+
+/// A line segment of the light field: an accepted estimate (section 3), an element of Γ.
+struct RayTuple {
+  float hypothesis = 0;  ///< Disparity, level-0 px per view step; the slope m of eq. 1 is its inverse.
+  float confidence = 0;
+  Radiance radiance;      ///< Mean radiance r̄ in the working colour space.
+  std::int32_t view = 0;  ///< Where it was computed,
+  std::int32_t u = 0;     ///< px of `level`
+  std::int32_t v = 0;     ///< px of `level`
+  std::int32_t level = 0;
+};
+
+/// Depth of one view.
+struct ViewDepth {
+  FloatMap disparity;   ///< (v, u), level-0 px per view step; NaN: no estimate
+  FloatMap confidence;  ///< (v, u), 0 and above; NaN: no estimate
+  Image<std::int8_t> level;  ///< pyramid level that decided, −1: none
+};
+
+/// What a run will take.
+struct Forecast {
+  double memory_bytes = 0;  ///< Peak, with what memory_limit allows.
+  double disk_bytes = 0;    ///< Intermediate data in the work folder; 0: all in memory.
+  double memory_all_bytes = 0;  ///< What it would take to keep everything in memory.
+  int bands = 1;            ///< Parts that level 0 is walked in.
+};
+
+/// Where the kernels run. "opencl" on the device that `device` means (see select_device), or
+/// "reference", the plain loops that they are checked against: slow.
+struct BackendChoice {
+  std::string backend = "opencl";
+  std::string device;
+};
+
+/// Result of a run; keeps the estimates of all levels (in memory or on disk) and makes the maps of a
+/// view when asked. Movable. Not thread-safe.
+class Reconstruction {
+ public:
+  struct Impl;
+  explicit Reconstruction(std::unique_ptr<Impl> impl);
+  Reconstruction(Reconstruction&&) noexcept;
+  Reconstruction& operator=(Reconstruction&&) noexcept;
+  ~Reconstruction();
+
+  /// The options as they were used: range, number of hypotheses and bandwidths filled in.
+  const DepthOptions& options() const;
+  const HypothesisRange& hypotheses() const;
+  const std::vector<int>& views() const;  ///< Views that have depth.
+  int num_levels() const;
+
+  /// Fills coarse estimates down to level 0 (section 4.5). view_idx: one of views().
+  ViewDepth view(int view_idx);
+
+  /// All tuples in a fixed order: level, view as processed, v, u.
+  void for_each_tuple(const std::function<void(const RayTuple&)>& visit) const;
+  std::size_t num_tuples() const;
+
+  const std::string& device() const;                      ///< Backend and device, for reports.
+  const std::map<std::string, double>& seconds() const;   ///< Per stage.
+  const Forecast& forecast() const;
+
+ private:
+  std::unique_ptr<Impl> impl_;
+};
+
+/// Depth for every view of a light field: the whole method of METHOD's steps 1–7 on all levels.
+/// The result does not depend on memory, bands or threads; twice the same input gives the same bits.
+/// Throws Error: kInvalidArgument (options), kBadInput (light field), kDevice, kIo, kOutOfMemory,
+/// kCancelled.
+Reconstruction reconstruct(const LightField& light_field, const DepthOptions& options,
+                           const BackendChoice& backend, const RunControl& control);
+
+/// Memory and disk of reconstruct() with these options. Reads no pixel.
+Forecast forecast(const LightField& light_field, const DepthOptions& options);
+
+/// Scores of one pixel: why it has the disparity that it has.
+struct ScoreCurve {
+  std::vector<float> scores;  ///< One per hypothesis, as the winner is chosen from; −1: not tested
+  HypothesisRange hypotheses;
+  float disparity = 0;   ///< Winner; NaN if none
+  float confidence = 0;  ///< Best score minus mean score
+  /// Per view what it sees of the winner: encoded RGB in [0, 1] or NaN where it sees nothing.
+  std::vector<Radiance> samples;
+};
+
+/// The score curve of pixel (u, v) of a view at level 0, with all hypotheses.
+ScoreCurve probe(const LightField& light_field, const DepthOptions& options,
+                 const BackendChoice& backend, int view_idx, int u, int v,
+                 const RunControl& control);
+
+}  // namespace gigaray

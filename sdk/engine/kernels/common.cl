@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Gigaray authors
+// Lanes, loads and interpolation that all kernels share. A work-item handles LANES neighbouring
+// pixels of a row as explicit vector lanes: 16 on a CPU with 512-bit registers, 1 on a GPU.
+
+#ifndef LANES
+#define LANES 16  // neighbouring pixels per work-item: 1, 4, 8 or 16
+#endif
+#ifndef CHANNELS
+#define CHANNELS 3  // planes per view: RGB, or RGB and the gradients gx, gy
+#endif
+#ifndef CUBIC
+#define CUBIC 0  // 1: Catmull-Rom interpolation, 0: linear
+#endif
+
+#ifndef GROUP
+#define GROUP 1  // work-items per work-group along u; each has its own slice of local memory
+#endif
+#if GROUP == 1
+#define SLICE(i) (i)
+#else
+#define SLICE(i) ((i) * GROUP + (int)get_local_id(0))
+#endif
+
+#if LANES == 1
+typedef float vfloat;
+typedef int vint;
+typedef uint vuint;
+#define VLOAD(p) (*(p))
+#define VSTORE(value, p) (*(p) = (value))
+#define VLANES 0
+#define VANY(condition) (condition)
+#define VSELECT(otherwise, value, condition) ((condition) ? (value) : (otherwise))
+#define VTRUE(condition) (-(condition))
+#define VAS_INT(x) as_int(x)
+#define VAS_UINT(x) as_uint(x)
+#define VAS_FLOAT(x) as_float(x)
+#else
+#define CONCAT_(a, b) a##b
+#define CONCAT(a, b) CONCAT_(a, b)
+typedef CONCAT(float, LANES) vfloat;
+typedef CONCAT(int, LANES) vint;
+typedef CONCAT(uint, LANES) vuint;
+#define VLOAD(p) CONCAT(vload, LANES)(0, p)
+#define VSTORE(value, p) CONCAT(vstore, LANES)(value, 0, p)
+#if LANES == 16
+#define VLANES ((int16)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15))
+#elif LANES == 8
+#define VLANES ((int8)(0, 1, 2, 3, 4, 5, 6, 7))
+#else
+#define VLANES ((int4)(0, 1, 2, 3))
+#endif
+#define VANY(condition) any(condition)
+#define VSELECT(otherwise, value, condition) select((otherwise), (value), (condition))
+#define VTRUE(condition) (condition)
+#define VAS_INT(x) CONCAT(as_int, LANES)(x)
+#define VAS_UINT(x) CONCAT(as_uint, LANES)(x)
+#define VAS_FLOAT(x) CONCAT(as_float, LANES)(x)
+#endif
+// VTRUE: a condition as 0 or -1 per lane, whatever LANES is.
+
+// Pixel u of a row of a map of the reference view.
+inline size_t map_index(const StripParams strip, int row, int u) {
+  return (size_t)row * strip.pitch + GIGARAY_PAD + u;
+}
+
+// Pixel u of hypothesis i of a row of a score volume.
+inline size_t score_index(const StripParams strip, int hypotheses, int row, int i, int u) {
+  return ((size_t)row * hypotheses + i) * strip.pitch + GIGARAY_PAD + u;
+}
+
+// First pixel of channel 0 of a row of a view.
+inline __global const float* band_row(__global const float* band, const BandParams p, int view,
+                                      int v) {
+  return band + ((size_t)(v - p.row_begin) * p.num_views + view) * CHANNELS * p.stride +
+         GIGARAY_PAD;
+}
+
+// Catmull-Rom weights of the taps at -1, 0, 1, 2 for a fraction f in [0, 1).
+inline float4 cubic_weights(float f) {
+  const float f2 = f * f, f3 = f2 * f;
+  return (float4)(-0.5f * f3 + f2 - 0.5f * f, 1.5f * f3 - 2.5f * f2 + 1.0f,
+                  -1.5f * f3 + 2.0f * f2 + 0.5f * f, 0.5f * f3 - 0.5f * f2);
+}
+
+inline vfloat interpolate_row(__global const float* x, float f, float4 w) {
+#if CUBIC
+  return w.s0 * VLOAD(x - 1) + w.s1 * VLOAD(x) + w.s2 * VLOAD(x + 1) + w.s3 * VLOAD(x + 2);
+#else
+  const vfloat left = VLOAD(x);
+  return left + f * (VLOAD(x + 1) - left);
+#endif
+}
+
+// Colours of LANES neighbouring positions (xi + fx + lane, yi + fy) of a view, fx and fy in [0, 1).
+// inside: 1 for lanes within the picture, else 0. Returns 0 when no lane is, then nothing is set.
+inline int sample_translated(__global const float* band, const BandParams p, int view, int xi,
+                             float fx, int yi, float fy, vfloat* colour, vfloat* inside) {
+  const int last_column = p.width - 1 - (fx > 0.0f);
+  if (yi < 0 || yi + (fy > 0.0f) > p.height - 1 || xi + LANES <= 0 || xi > last_column) return 0;
+  const vint x = xi + VLANES;
+  *inside = VSELECT((vfloat)(0.0f), (vfloat)(1.0f), x >= 0 && x <= last_column);
+
+  const float4 wx = CUBIC ? cubic_weights(fx) : (float4)(0.0f);
+  __global const float* row = band_row(band, p, view, yi) + xi;
+  for (int c = 0; c < CHANNELS; ++c) colour[c] = interpolate_row(row + c * p.stride, fx, wx);
+  if (fy > 0.0f) {
+    const size_t next = (size_t)p.num_views * CHANNELS * p.stride;
+#if CUBIC
+    const float4 wy = cubic_weights(fy);
+    __global const float* above = yi > 0 ? row - next : row;
+    __global const float* below = row + next;
+    __global const float* below2 = yi + 2 < p.height ? below + next : below;
+    for (int c = 0; c < CHANNELS; ++c)
+      colour[c] = wy.s0 * interpolate_row(above + c * p.stride, fx, wx) + wy.s1 * colour[c] +
+                  wy.s2 * interpolate_row(below + c * p.stride, fx, wx) +
+                  wy.s3 * interpolate_row(below2 + c * p.stride, fx, wx);
+#else
+    for (int c = 0; c < CHANNELS; ++c)
+      colour[c] += fy * (interpolate_row(row + next + c * p.stride, fx, wx) - colour[c]);
+#endif
+  }
+  return 1;
+}

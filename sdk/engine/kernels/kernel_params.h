@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Gigaray authors
+// Plain structs shared by host and device, passed to kernels by value.
+#ifndef GIGARAY_KERNEL_PARAMS_H
+#define GIGARAY_KERNEL_PARAMS_H
+
+#ifndef __OPENCL_C_VERSION__
+namespace gigaray {
+#endif
+
+/// Columns of padding left and right of every row of a band: the edge pixel repeated, so that a
+/// load of LANES neighbours with interpolation taps never leaves the row.
+#define GIGARAY_PAD 32
+
+/// A band: rows [row_begin, row_end) of all views at one level, as floats
+/// [row][view][channel][stride], pixel u at GIGARAY_PAD + u.
+typedef struct BandParams {
+  int width;   ///< of the level, px
+  int height;  ///< of the level, px
+  int num_views;
+  int stride;  ///< floats per row of one channel, padding included
+  int row_begin;
+  int row_end;
+} BandParams;
+
+/// The rows of the reference view that a step works on. Maps of it are [row - row_begin][pitch],
+/// score volumes [row - row_begin][hypothesis][pitch]; pixel u stands at GIGARAY_PAD + u, as in a band,
+/// and pitch is the stride of the band.
+typedef struct StripParams {
+  int ref;    ///< reference view
+  int width;  ///< px
+  int row_begin;
+  int row_end;
+  int pitch;
+} StripParams;
+
+/// Hypothesis i is min + i * step.
+typedef struct HypothesisParams {
+  float min;
+  float step;
+  int count;
+} HypothesisParams;
+
+#ifndef __OPENCL_C_VERSION__
+}  // namespace gigaray
+#endif
+
+#endif

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Gigaray authors
+// Turns decoded rows into the planes of a band: colours through a look-up table, gradients of the
+// channel mean, padding.
+//   encoded  [row][view][u][3], SOURCE integers (level 0), through lut; or
+//            [row][view][3][u] floats in the working colour space (level 1 and above)
+//   band     [row][view][CHANNELS][stride]
+// Work-group shape: none; one work-item per (view, row).
+
+#ifndef SOURCE_BITS
+#define SOURCE_BITS 8  // 8, 16: integers; 32: floats of a coarser level
+#endif
+#if SOURCE_BITS == 8
+typedef uchar source_t;
+#elif SOURCE_BITS == 16
+typedef ushort source_t;
+#else
+typedef float source_t;
+#endif
+
+__kernel void unpack_colours(__global const source_t* encoded, __global const float* lut,
+                             const BandParams p, __global float* band) {
+  const int view = get_global_id(0), row = get_global_id(1);
+  __global const source_t* in = encoded + ((size_t)row * p.num_views + view) * 3 * p.width;
+  __global float* out = band + ((size_t)row * p.num_views + view) * CHANNELS * p.stride;
+  for (int c = 0; c < 3; ++c) {
+    __global float* plane = out + c * p.stride + GIGARAY_PAD;
+    for (int u = 0; u < p.width; ++u) {
+#if SOURCE_BITS == 32
+      plane[u] = in[c * p.width + u];
+#else
+      plane[u] = lut[in[3 * u + c]];
+#endif
+    }
+    for (int i = 1; i <= GIGARAY_PAD; ++i) plane[-i] = plane[0];
+    for (int u = p.width; u < p.stride - GIGARAY_PAD; ++u) plane[u] = plane[p.width - 1];
+  }
+}
+
+// gx, gy: half the difference of the neighbours' channel means; at the border the pixel itself
+// takes the missing neighbour's place. Rows at the edge of a band that is not the picture's edge
+// get a one-sided gy: the halo of a band includes one row for that.
+__kernel void unpack_gradients(const BandParams p, __global float* band) {
+#if CHANNELS == 5
+  const int view = get_global_id(0), row = get_global_id(1);
+  const int rows = p.row_end - p.row_begin;
+  const size_t row_step = (size_t)p.num_views * CHANNELS * p.stride;
+  __global float* here =
+      band + ((size_t)row * p.num_views + view) * CHANNELS * p.stride + GIGARAY_PAD;
+  __global const float* above = row > 0 ? here - row_step : here;
+  __global const float* below = row + 1 < rows ? here + row_step : here;
+  __global float* gx = here + 3 * p.stride;
+  __global float* gy = here + 4 * p.stride;
+  const int g = p.stride, b = 2 * p.stride;
+  for (int u = 0; u < p.width; ++u) {
+    const int l = max(u - 1, 0), r = min(u + 1, p.width - 1);
+    gx[u] = (here[r] + here[g + r] + here[b + r] - here[l] - here[g + l] - here[b + l]) * (1.0f / 6);
+    gy[u] =
+        (below[u] + below[g + u] + below[b + u] - above[u] - above[g + u] - above[b + u]) * (1.0f / 6);
+  }
+  for (int c = 3; c < 5; ++c) {
+    __global float* plane = here + c * p.stride;
+    for (int i = 1; i <= GIGARAY_PAD; ++i) plane[-i] = plane[0];
+    for (int u = p.width; u < p.stride - GIGARAY_PAD; ++u) plane[u] = plane[p.width - 1];
+  }
+#endif
+}

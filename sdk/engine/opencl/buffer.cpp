@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Gigaray authors
+#include "opencl/buffer.h"
+
+#include <cstdint>
+#include <cstdio>
+
+namespace gigaray::opencl {
+namespace {
+
+std::string readable_size(std::uint64_t bytes) {
+  char text[48];
+  if (bytes < (1u << 20)) {
+    std::snprintf(text, sizeof text, "%llu bytes", static_cast<unsigned long long>(bytes));
+  } else {
+    const bool giga = bytes >= (1u << 30);
+    std::snprintf(text, sizeof text, "%.1f %s", double(bytes) / double(giga ? 1u << 30 : 1u << 20),
+                  giga ? "GiB" : "MiB");
+  }
+  return text;
+}
+
+cl_mem create(const Device& device, cl_mem_flags flags, std::size_t bytes, void* host) {
+  GIGARAY_CHECK(bytes > 0);
+  const auto& info = device.info();
+  if (bytes > info.max_allocation)
+    throw Error(ErrorCode::kOutOfMemory,
+                "device " + info.name + ": a buffer of " + readable_size(bytes) +
+                    " is larger than its largest allocation of " +
+                    readable_size(info.max_allocation) + "; use less --memory or another --device");
+  cl_int error = CL_SUCCESS;
+  const cl_mem memory = clCreateBuffer(device.context().get(), flags, bytes, host, &error);
+  if (error == CL_MEM_OBJECT_ALLOCATION_FAILURE || error == CL_OUT_OF_HOST_MEMORY ||
+      error == CL_OUT_OF_RESOURCES)
+    throw Error(ErrorCode::kOutOfMemory, "device " + info.name + ": no room for a buffer of " +
+                                             readable_size(bytes) + " in its memory of " +
+                                             readable_size(info.global_memory) +
+                                             "; use less --memory or another --device");
+  check_cl(error, "clCreateBuffer of " + readable_size(bytes));
+  return memory;
+}
+
+std::string to_text(const WorkSize& size) {
+  std::string text;
+  for (cl_uint i = 0; i < size.dimensions; ++i)
+    text += (i ? " x " : "") + std::to_string(size.size[i]);
+  return text;
+}
+
+}  // namespace
+
+Buffer::Buffer(const Device& device, std::size_t bytes)
+    : memory_(create(device, CL_MEM_READ_WRITE, bytes, nullptr)),
+      queue_(device.queue()),
+      bytes_(bytes) {}
+
+Buffer Buffer::over_host_memory(const Device& device, std::span<std::byte> memory) {
+  Buffer buffer;
+  buffer.memory_ =
+      Memory(create(device, CL_MEM_READ_WRITE | CL_MEM_USE_HOST_PTR, memory.size(), memory.data()));
+  buffer.queue_ = device.queue();
+  buffer.bytes_ = memory.size();
+  return buffer;
+}
+
+void Buffer::write_bytes(const void* data, std::size_t bytes, std::size_t offset) {
+  GIGARAY_CHECK(offset <= bytes_ && bytes <= bytes_ - offset);
+  if (bytes == 0) return;
+  GIGARAY_CL(
+      clEnqueueWriteBuffer(queue_.get(), get(), CL_TRUE, offset, bytes, data, 0, nullptr, nullptr));
+}
+
+void Buffer::read_bytes(void* data, std::size_t bytes, std::size_t offset) const {
+  GIGARAY_CHECK(offset <= bytes_ && bytes <= bytes_ - offset);
+  if (bytes == 0) return;
+  GIGARAY_CL(
+      clEnqueueReadBuffer(queue_.get(), get(), CL_TRUE, offset, bytes, data, 0, nullptr, nullptr));
+}
+
+void Buffer::clear() {
+  const cl_uchar zero = 0;
+  GIGARAY_CL(
+      clEnqueueFillBuffer(queue_.get(), get(), &zero, sizeof zero, 0, bytes_, 0, nullptr, nullptr));
+}
+
+Mapping::Mapping(const Buffer& buffer, Access access)
+    : memory_(buffer.memory_), queue_(buffer.queue_), bytes_(buffer.bytes_) {
+  cl_int error = CL_SUCCESS;
+  const cl_map_flags flags =
+      access == Access::kRead ? CL_MAP_READ : cl_map_flags(CL_MAP_READ | CL_MAP_WRITE);
+  data_ = clEnqueueMapBuffer(queue_.get(), memory_.get(), CL_TRUE, flags, 0, bytes_, 0, nullptr,
+                             nullptr, &error);
+  check_cl(error, "clEnqueueMapBuffer of " + readable_size(bytes_));
+}
+
+Mapping::~Mapping() {
+  // A failure shows again, and can be thrown, at the next call on this in-order queue.
+  clEnqueueUnmapMemObject(queue_.get(), memory_.get(), data_, 0, nullptr, nullptr);
+}
+
+Kernel::Kernel(const Device& device, const Program& program, const std::string& name)
+    : queue_(device.queue()), name_(name) {
+  cl_int error = CL_SUCCESS;
+  kernel_ = Object(clCreateKernel(program.get(), name.c_str(), &error));
+  check_cl(error, "clCreateKernel of " + name);
+}
+
+void Kernel::set_raw_arg(cl_uint index, std::size_t size, const void* value) {
+  const cl_int error = clSetKernelArg(kernel_.get(), index, size, value);
+  if (error != CL_SUCCESS)
+    check_cl(error, "argument " + std::to_string(index) + " of kernel " + name_ + " (" +
+                        std::to_string(size) + " bytes)");
+}
+
+void Kernel::enqueue(const WorkSize& global, const WorkSize& local, cl_event* event) const {
+  GIGARAY_CHECK(global.dimensions == local.dimensions);
+  const cl_int error =
+      clEnqueueNDRangeKernel(queue_.get(), kernel_.get(), global.dimensions, nullptr,
+                             global.size.data(), local.size.data(), 0, nullptr, event);
+  if (error != CL_SUCCESS)
+    check_cl(error, "kernel " + name_ + " over " + to_text(global) + " items in groups of " +
+                        to_text(local));
+}
+
+void Kernel::run(const WorkSize& global, const WorkSize& local) const {
+  enqueue(global, local, nullptr);
+}
+
+double Kernel::run_timed(const WorkSize& global, const WorkSize& local) const {
+  cl_event raw = nullptr;
+  enqueue(global, local, &raw);
+  const Handle<cl_event, clRetainEvent, clReleaseEvent> event(raw);
+  GIGARAY_CL(clWaitForEvents(1, &raw));
+  cl_ulong begin = 0;
+  cl_ulong end = 0;
+  GIGARAY_CL(
+      clGetEventProfilingInfo(raw, CL_PROFILING_COMMAND_START, sizeof begin, &begin, nullptr));
+  GIGARAY_CL(clGetEventProfilingInfo(raw, CL_PROFILING_COMMAND_END, sizeof end, &end, nullptr));
+  return double(end - begin) * 1e-9;
+}
+
+}  // namespace gigaray::opencl

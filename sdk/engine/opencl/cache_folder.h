@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Gigaray authors
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string_view>
+
+namespace gigaray::opencl {
+
+/// Folder of compiled kernels and of the user's tuning: $GIGARAY_CACHE_DIR, else
+/// $XDG_CACHE_HOME/gigaray, else $HOME/.cache/gigaray. Empty when GIGARAY_CACHE=off or none of the
+/// variables is set. Read from the environment at every call; the folder need not exist.
+std::optional<std::filesystem::path> cache_folder();
+
+inline constexpr std::string_view kProgramFolder = "programs";  ///< <hash>.bin files
+inline constexpr std::string_view kPoclFolder = "pocl";         ///< PoCL's own cache
+
+/// Writes a file beside `path` and renames it, so that a reader sees the old or the new content
+/// and nothing between; makes the folder. False when that is impossible, leaving no file behind.
+bool write_file_atomically(const std::filesystem::path& path, std::string_view content);
+
+/// The content of a file, or empty when it can't be read.
+std::optional<std::string> read_file(const std::filesystem::path& path);
+
+/// Makes PoCL keep its compiled kernels under cache_folder(), see list_devices(). Call before the
+/// first OpenCL call; only the first call of the process does something.
+void give_pocl_a_cache();
+
+}  // namespace gigaray::opencl

@@ -1,0 +1,352 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Gigaray authors
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <optional>
+
+#include "gigaray/backend.h"
+#include "gigaray/samplers/any_sampler.h"
+#include "kernels/kernel_params.h"
+#include "opencl/buffer.h"
+#include "opencl/program_cache.h"
+#include "opencl/tuning.h"
+
+namespace gigaray {
+namespace {
+
+using opencl::Buffer;
+using opencl::Kernel;
+using opencl::LocalMemory;
+using opencl::round_up;
+using opencl::WorkSize;
+
+static_assert(StripMap<float>::kPad == GIGARAY_PAD);
+
+/// A kernel that works on blocks of `lanes` pixels in groups of `group` work-items.
+struct LaneKernel {
+  Kernel kernel;
+  int lanes = 1;
+  int group = 1;
+
+  void run(int width, int rows) const {
+    const std::size_t blocks = (std::size_t(width) + lanes - 1) / lanes;
+    kernel.run(WorkSize(round_up(blocks, group), rows), WorkSize(group, 1));
+  }
+  /// Local memory of `count` vectors for every work-item of a group.
+  LocalMemory vectors(std::size_t count) const {
+    return {std::max<std::size_t>(count, 1) * lanes * group * sizeof(float)};
+  }
+};
+
+/// A device buffer that only grows.
+struct Scratch {
+  Buffer buffer;
+  std::size_t bytes = 0;
+
+  /// At least `size` bytes. New memory is zero: kernels may load (never use) what was not written,
+  /// and that must not be a NaN.
+  Buffer& at_least(const opencl::Device& device, std::size_t size) {
+    if (size > bytes) {
+      buffer = Buffer();
+      buffer = Buffer(device, size);
+      buffer.clear();
+      bytes = size;
+    }
+    return buffer;
+  }
+};
+
+std::string define(const std::string& name, int value) {
+  return " -D" + name + "=" + std::to_string(value);
+}
+
+/// The OpenCL twin of a sampler.
+struct SamplerTwin {
+  std::string kernel_file;
+  std::function<std::vector<float>(int level)> view_table;
+  int num_views = 0;
+};
+
+class OpenClBackend : public Backend {
+ public:
+  OpenClBackend(SamplerTwin sampler, const BackendSetup& setup, const std::string& selection)
+      : sampler_(std::move(sampler)),
+        setup_(setup),
+        device_(opencl::Device::open(selection)),
+        table_(colour_table(setup.bit_depth, setup.options.score.linear_rgb)) {
+    hypotheses_ = {float(setup.hypotheses.min), float(setup.hypotheses.step()),
+                   setup.hypotheses.count};
+    table_buffer_ = Buffer(device_, std::span<const float>(table_));
+  }
+
+  std::string name() const override { return "opencl"; }
+  std::string description() const override {
+    return device_.info().name + " (" + device_.info().platform + ")";
+  }
+
+  void set_active_views(const std::vector<int>& views) override {
+    active_count_ = int(views.size());
+    active_buffer_ = Buffer(device_, std::span<const int>(views));
+  }
+
+  void begin_level(const LevelShape& shape) override {
+    band_.width = shape.width;
+    band_.height = shape.height;
+    band_.num_views = sampler_.num_views;
+    band_.stride = StripMap<float>::pitch_for(shape.width);
+    const std::vector<float> views = sampler_.view_table(shape.level);
+    views_buffer_ = Buffer(device_, std::span<const float>(views));
+  }
+
+  void load_band(RowRange rows, const void* encoded, BandEncoding encoding) override {
+    band_.row_begin = rows.begin;
+    band_.row_end = rows.end;
+    const int bits = encoding == BandEncoding::kBits8 ? 8 : encoding == BandEncoding::kBits16 ? 16 : 32;
+    const std::size_t values = std::size_t(rows.size()) * band_.num_views * 3 * band_.width;
+    const std::size_t bytes = values * (bits / 8);
+    Buffer& source = encoded_.at_least(device_, bytes);
+    source.write(std::span(static_cast<const std::byte*>(encoded), bytes));
+    Buffer& band = band_memory_.at_least(
+        device_, std::size_t(rows.size()) * band_.num_views * channels() * band_.stride * sizeof(float));
+
+    const std::string options = define("SOURCE_BITS", bits);
+    const WorkSize all(band_.num_views, rows.size());
+    plain_kernel("unpack_channels", "unpack_colours", options)
+        .set_args(source, table_buffer_, band_, band)
+        .run(all, WorkSize(1, 1));
+    if (setup_.options.score.gradient)
+      plain_kernel("unpack_channels", "unpack_gradients", options)
+          .set_args(band_, band)
+          .run(all, WorkSize(1, 1));
+  }
+
+  void edge_confidence(int ref, RowRange rows, StripMap<float>& confidence) override {
+    const EdgeOptions& edge = setup_.options.edge;
+    LaneKernel& kernel = lane_kernel("edge_confidence",
+                                     define("RADIUS", edge.radius) + define("SQUARED", edge.squared) +
+                                         define("BOTH_AXES", setup_.kind != LightFieldKind::k3D));
+    Buffer& out = map_out(0, rows, sizeof(float));
+    kernel.kernel.set_args(band_memory_.buffer, band_, strip(ref, rows), out);
+    kernel.run(band_.width, rows.size());
+    download(out, rows, confidence);
+  }
+
+  void density_score(int ref, RowRange rows, const StripMap<std::uint8_t>& todo,
+                     const StripMap<HypothesisBounds>& bounds) override {
+    const ScoreOptions& score = setup_.options.score;
+    const opencl::Tuning tuning = opencl::lookup_tuning(device_.info(), "density_score");
+    LaneKernel& kernel =
+        lane_kernel("density_score", score_defines() +
+                                         (score.stop_early ? "" : " -DMOVE_BOUND=0.0f"));
+    score_rows_ = rows;
+    Buffer& scores = scores_[0].at_least(device_, volume_bytes(rows));
+    current_scores_ = 0;
+    const float all = float(band_.num_views);
+    const int min_views = std::max(1, int(std::ceil(score.min_views * all)));
+    const bool staged = !score.gradient && tuning.at("STAGE") != 0;
+    kernel.kernel.set_args(band_memory_.buffer, band_, strip(ref, rows), views_buffer_, hypotheses_,
+                           upload(1, rows, todo), upload(2, rows, bounds), score.bandwidth,
+                           score.gradient_bandwidth, score.gradient_share, min_views,
+                           score.floor_views * all, scores,
+                           kernel.vectors(staged ? 3 * band_.num_views : 1));
+    kernel.run(band_.width, rows.size());
+  }
+
+  void score_support(int ref, RowRange rows, const StripMap<std::uint8_t>& todo,
+                     const StripMap<HypothesisBounds>& bounds) override {
+    const SupportOptions& support = setup_.options.support;
+    LaneKernel& kernel = lane_kernel("score_support", define("RADIUS", support.radius));
+    Buffer& scores = scores_[current_scores_].buffer;
+    current_scores_ = 1 - current_scores_;
+    Buffer& supported = scores_[current_scores_].at_least(device_, volume_bytes(rows));
+    const int window = 2 * support.radius + 1;
+    kernel.kernel.set_args(band_memory_.buffer, band_, strip(ref, rows), hypotheses_,
+                           upload(1, rows, todo), upload(2, rows, bounds), scores, score_rows_.begin,
+                           support.sigma_colour, support.sigma_space, supported,
+                           kernel.vectors(std::size_t(window) * window));
+    kernel.run(band_.width, rows.size());
+    device_.finish();
+    score_rows_ = rows;
+  }
+
+  void winner(RowRange rows, const StripMap<std::uint8_t>& todo,
+              const StripMap<HypothesisBounds>& bounds, StripMap<float>& disparity,
+              StripMap<float>& contrast) override {
+    GIGARAY_CHECK(rows == score_rows_);
+    LaneKernel& kernel = lane_kernel("winner", define("REFINE", setup_.options.winner.refine));
+    Buffer& best = map_out(3, rows, sizeof(float));
+    Buffer& lead = map_out(4, rows, sizeof(float));
+    kernel.kernel.set_args(strip(0, rows), hypotheses_, upload(1, rows, todo), upload(2, rows, bounds),
+                           scores_[current_scores_].buffer, best, lead);
+    kernel.run(band_.width, rows.size());
+    download(best, rows, disparity);
+    download(lead, rows, contrast);
+  }
+
+  std::vector<float> scores_at(int u, int v) override {
+    GIGARAY_CHECK(score_rows_.contains(v));
+    std::vector<float> scores(setup_.hypotheses.count);
+    for (int i = 0; i < int(scores.size()); ++i) {
+      const std::size_t at =
+          (std::size_t(v - score_rows_.begin) * scores.size() + i) * band_.stride + GIGARAY_PAD + u;
+      scores_[current_scores_].buffer.read(std::span(&scores[i], 1), at * sizeof(float));
+    }
+    return scores;
+  }
+
+  void bilateral_median(int ref, RowRange rows, int radius, float tolerance,
+                        const StripMap<float>& in, StripMap<float>& out) override {
+    const bool bilateral = std::isfinite(tolerance);
+    LaneKernel& kernel = lane_kernel(
+        "bilateral_median", define("RADIUS", radius) + define("BILATERAL", bilateral));
+    const RowRange around = grown(rows, radius, band_.height);
+    // A plain median looks at no colour, but a kernel argument must be some buffer.
+    Buffer& band = bilateral ? band_memory_.buffer : views_buffer_;
+    Buffer& result = map_out(3, rows, sizeof(float));
+    const std::size_t window = std::size_t(2 * radius + 1) * (2 * radius + 1);
+    kernel.kernel.set_args(band, band_, strip(ref, rows), upload(4, around, in), around.begin,
+                           bilateral ? tolerance : 0.0f, result, kernel.vectors(window));
+    kernel.run(band_.width, rows.size());
+    download(result, rows, out);
+  }
+
+  void mean_radiance(int ref, RowRange rows, const StripMap<float>& disparity,
+                     StripMap<Radiance>& radiance) override {
+    Kernel& kernel = plain_kernel("mean_radiance", "mean_radiance", score_defines());
+    Buffer& out = map_out(5, rows, sizeof(Radiance));
+    constexpr int kGroup = 64;
+    kernel
+        .set_args(band_memory_.buffer, band_, strip(ref, rows), views_buffer_,
+                  upload(3, rows, disparity), setup_.options.score.bandwidth, out)
+        .run(WorkSize(round_up(band_.width, kGroup), rows.size()), WorkSize(kGroup, 1));
+    download(out, rows, radiance);
+  }
+
+  void propagation(int ref, RowRange rows, const StripMap<float>& disparity,
+                   const StripMap<float>& confidence, const StripMap<Radiance>& radiance,
+                   RowRange state_rows, PackedEstimate* estimates) override {
+    Kernel& kernel = plain_kernel("propagation", "propagation", "");
+    const std::span<std::byte> host(
+        reinterpret_cast<std::byte*>(estimates),
+        std::size_t(state_rows.size()) * active_count_ * band_.width * sizeof(PackedEstimate));
+    Buffer state = device_.info().shares_host_memory
+                       ? Buffer::over_host_memory(device_, host)
+                       : Buffer(device_, std::span<const std::byte>(host));
+    kernel
+        .set_args(band_memory_.buffer, band_, strip(ref, rows), views_buffer_, active_buffer_,
+                  active_count_, upload(3, rows, disparity), upload(4, rows, confidence),
+                  upload(5, rows, radiance), setup_.options.propagation.tolerance, state_rows.begin,
+                  state_rows.end, state)
+        .run(WorkSize(active_count_), WorkSize(1));
+    if (device_.info().shares_host_memory)
+      opencl::Mapping(state, opencl::Mapping::Access::kRead);
+    else
+      state.read(host);
+  }
+
+  void downsample(RowRange small_rows, float* small) override {
+    const int small_width = (band_.width + 1) / 2;
+    const std::size_t values =
+        std::size_t(small_rows.size()) * band_.num_views * 3 * small_width;
+    Buffer& out = encoded_.at_least(device_, values * sizeof(float));
+    plain_kernel("downsample", "downsample", "")
+        .set_args(band_memory_.buffer, band_, small_width, small_rows.begin, out)
+        .run(WorkSize(band_.num_views, small_rows.size()), WorkSize(1, 1));
+    out.read(std::span(small, values));
+  }
+
+ private:
+  int channels() const { return setup_.options.score.gradient ? 5 : 3; }
+
+  StripParams strip(int ref, RowRange rows) const {
+    return {ref, band_.width, rows.begin, rows.end, band_.stride};
+  }
+
+  std::size_t volume_bytes(RowRange rows) const {
+    return std::size_t(rows.size()) * hypotheses_.count * band_.stride * sizeof(float);
+  }
+
+  std::string score_defines() const {
+    const ScoreOptions& score = setup_.options.score;
+    return define("ITERATIONS", score.mean_shift_iterations) + define("GRADIENT", score.gradient) +
+           define("CUBIC", score.cubic);
+  }
+
+  /// Device copy of some rows of a map. slot: maps of one call need different ones.
+  template <class T>
+  Buffer& upload(int slot, RowRange rows, const StripMap<T>& map) {
+    Buffer& buffer = map_out(slot, rows, sizeof(T));
+    buffer.write(std::span(map.padded_row(rows.begin), std::size_t(rows.size()) * map.pitch()));
+    return buffer;
+  }
+  Buffer& map_out(int slot, RowRange rows, std::size_t value_bytes) {
+    return maps_[slot].at_least(device_, std::size_t(rows.size()) * band_.stride * value_bytes);
+  }
+  template <class T>
+  void download(const Buffer& buffer, RowRange rows, StripMap<T>& map) {
+    buffer.read(std::span(map.padded_row(rows.begin), std::size_t(rows.size()) * map.pitch()));
+  }
+
+  Kernel build(const std::string& file, const std::string& entry, const std::string& options) {
+    const std::string kernel_file = file + ".cl";
+    const opencl::SourcePart parts[] = {
+        {"kernel_params.h", opencl::kernel_source("kernel_params.h")},
+        {"common.cl", opencl::kernel_source("common.cl")},
+        {sampler_.kernel_file, opencl::kernel_source(sampler_.kernel_file)},
+        {kernel_file, opencl::kernel_source(kernel_file)}};
+    return Kernel(device_,
+                  opencl::build_program(device_, parts, options + define("CHANNELS", channels())),
+                  entry);
+  }
+
+  Kernel& plain_kernel(const std::string& file, const std::string& entry,
+                       const std::string& options) {
+    auto [it, is_new] = plain_kernels_.try_emplace(entry + options);
+    if (is_new) it->second = build(file, entry, options);
+    return it->second;
+  }
+
+  LaneKernel& lane_kernel(const std::string& file, const std::string& options) {
+    auto [it, is_new] = lane_kernels_.try_emplace(file + options);
+    if (is_new) {
+      const opencl::Tuning tuning = opencl::lookup_tuning(device_.info(), file);
+      it->second = {build(file, file, opencl::defines(tuning) + options), tuning.at("LANES"),
+                    tuning.at("GROUP")};
+    }
+    return it->second;
+  }
+
+  SamplerTwin sampler_;
+  BackendSetup setup_;
+  opencl::Device device_;
+  std::vector<float> table_;
+  HypothesisParams hypotheses_{};
+  BandParams band_{};
+  int active_count_ = 0;
+  RowRange score_rows_;
+  int current_scores_ = 0;
+
+  Buffer table_buffer_, active_buffer_, views_buffer_;
+  Scratch encoded_, band_memory_, scores_[2], maps_[6];
+  std::map<std::string, Kernel> plain_kernels_;
+  std::map<std::string, LaneKernel> lane_kernels_;
+};
+
+}  // namespace
+
+template <RaySampler S>
+std::unique_ptr<Backend> make_opencl_backend(const S& sampler, const BackendSetup& setup,
+                                             const std::string& device_selection) {
+  SamplerTwin twin{std::string(S::kKernelFile),
+                   [sampler](int level) { return sampler.at_level(level).view_table(); },
+                   sampler.num_views()};
+  return std::make_unique<OpenClBackend>(std::move(twin), setup, device_selection);
+}
+
+template std::unique_ptr<Backend> make_opencl_backend(const EpiSampler&, const BackendSetup&,
+                                                      const std::string&);
+template std::unique_ptr<Backend> make_opencl_backend(const GridSampler&, const BackendSetup&,
+                                                      const std::string&);
+
+}  // namespace gigaray

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Gigaray authors
+#include "band.h"
+#include "bilateral_median.h"
+#include "density_score.h"
+#include "downsample.h"
+#include "edge_confidence.h"
+#include "gigaray/samplers/any_sampler.h"
+#include "mean_radiance.h"
+#include "propagation.h"
+#include "score_support.h"
+#include "unpack_channels.h"
+#include "winner.h"
+
+namespace gigaray {
+namespace {
+
+using namespace reference;
+
+template <RaySampler S>
+class ReferenceBackend : public Backend {
+ public:
+  ReferenceBackend(const S& sampler, const BackendSetup& setup)
+      : level0_sampler_(sampler),
+        sampler_(sampler),
+        setup_(setup),
+        table_(colour_table(setup.bit_depth, setup.options.score.linear_rgb)) {}
+
+  std::string name() const override { return "reference"; }
+  std::string description() const override { return "plain C++ on one thread"; }
+  void set_active_views(const std::vector<int>& views) override { active_views_ = views; }
+
+  void begin_level(const LevelShape& shape) override {
+    sampler_ = level0_sampler_.at_level(shape.level);
+    band_ = Band{shape, {}, sampler_.num_views(), setup_.options.score.gradient ? 5 : 3, {}};
+  }
+  void load_band(RowRange rows, const void* encoded, BandEncoding encoding) override {
+    band_.rows = rows;
+    band_.data.resize(std::size_t(rows.size()) * band_.num_views * band_.channels *
+                      band_.shape.width);
+    unpack_channels(encoded, encoding, table_, band_);
+  }
+  void edge_confidence(int ref, RowRange rows, StripMap<float>& confidence) override {
+    reference::edge_confidence(band_, ref, rows, setup_.options.edge,
+                               setup_.kind != LightFieldKind::k3D, confidence);
+  }
+  void density_score(int ref, RowRange rows, const StripMap<std::uint8_t>& todo,
+                     const StripMap<HypothesisBounds>& bounds) override {
+    scores_ = Scores(rows, setup_.hypotheses.count, band_.shape.width);
+    for (int v = rows.begin; v < rows.end; ++v) {
+      for (int u = 0; u < band_.shape.width; ++u) {
+        if (!todo.row(v)[u]) continue;
+        const auto [first, last] = bounds.row(v)[u];
+        for (int i = first; i <= last; ++i) {
+          const Ray ray{double(u), double(v), setup_.hypotheses.value(i)};
+          scores_.at(u, v, i) =
+              reference::density_score(band_, sampler_, ref, ray, setup_.options.score);
+        }
+      }
+    }
+  }
+  void score_support(int ref, RowRange rows, const StripMap<std::uint8_t>& todo,
+                     const StripMap<HypothesisBounds>& bounds) override {
+    scores_ = reference::score_support(band_, ref, rows, setup_.options.support, todo, bounds, scores_);
+  }
+  void winner(RowRange rows, const StripMap<std::uint8_t>& todo,
+              const StripMap<HypothesisBounds>& bounds, StripMap<float>& disparity,
+              StripMap<float>& contrast) override {
+    reference::winner(rows, scores_, setup_.hypotheses, setup_.options.winner.refine, todo, bounds,
+                      disparity, contrast);
+  }
+  std::vector<float> scores_at(int u, int v) override {
+    std::vector<float> scores;
+    for (int i = 0; i < scores_.count; ++i) scores.push_back(scores_.at(u, v, i));
+    return scores;
+  }
+  void bilateral_median(int ref, RowRange rows, int radius, float tolerance,
+                        const StripMap<float>& in, StripMap<float>& out) override {
+    reference::bilateral_median(band_, ref, rows, radius, tolerance, in, out);
+  }
+  void mean_radiance(int ref, RowRange rows, const StripMap<float>& disparity,
+                     StripMap<Radiance>& radiance) override {
+    reference::mean_radiance(band_, sampler_, ref, rows, setup_.options.score, disparity, radiance);
+  }
+  void propagation(int ref, RowRange rows, const StripMap<float>& disparity,
+                   const StripMap<float>& confidence, const StripMap<Radiance>& radiance,
+                   RowRange state_rows, PackedEstimate* estimates) override {
+    reference::propagation(band_, sampler_, ref, rows, active_views_,
+                           setup_.options.propagation.tolerance, disparity, confidence, radiance,
+                           state_rows, estimates);
+  }
+  void downsample(RowRange small_rows, float* small) override {
+    reference::downsample(band_, small_rows, small);
+  }
+
+ private:
+  S level0_sampler_;
+  S sampler_;
+  BackendSetup setup_;
+  std::vector<float> table_;
+  std::vector<int> active_views_;
+  Band band_;
+  Scores scores_;
+};
+
+}  // namespace
+
+template <RaySampler S>
+std::unique_ptr<Backend> make_reference_backend(const S& sampler, const BackendSetup& setup) {
+  return std::make_unique<ReferenceBackend<S>>(sampler, setup);
+}
+
+template std::unique_ptr<Backend> make_reference_backend(const EpiSampler&, const BackendSetup&);
+template std::unique_ptr<Backend> make_reference_backend(const GridSampler&, const BackendSetup&);
+
+}  // namespace gigaray

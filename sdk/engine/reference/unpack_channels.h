@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Gigaray authors
+#pragma once
+
+#include "band.h"
+
+namespace gigaray::reference {
+
+/// Fills a band from encoded rows; gradients are half differences of the neighbours' channel means.
+void unpack_channels(const void* encoded, BandEncoding encoding, const std::vector<float>& table,
+                     Band& band);
+
+}  // namespace gigaray::reference

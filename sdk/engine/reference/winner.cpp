@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Gigaray authors
+#include "winner.h"
+
+namespace gigaray::reference {
+
+void winner(RowRange rows, const Scores& scores, const HypothesisRange& hypotheses, bool refine,
+            const StripMap<std::uint8_t>& todo, const StripMap<HypothesisBounds>& bounds,
+            StripMap<float>& disparity, StripMap<float>& contrast) {
+  for (int v = rows.begin; v < rows.end; ++v) {
+    for (int u = 0; u < scores.width; ++u) {
+      disparity.row(v)[u] = kNoEstimate;
+      contrast.row(v)[u] = 0;
+      if (!todo.row(v)[u]) continue;
+      const auto [first, last] = bounds.row(v)[u];
+      int best = -1, tested = 0;
+      float sum = 0;
+      for (int i = first; i <= last; ++i) {
+        const float score = scores.at(u, v, i);
+        if (score < 0) continue;
+        sum += score;
+        ++tested;
+        if (best < 0 || score > scores.at(u, v, best)) best = i;
+      }
+      if (best < 0) continue;
+      const float peak = scores.at(u, v, best);
+      contrast.row(v)[u] = peak - sum / tested;
+      float h = float(hypotheses.min) + best * float(hypotheses.step());
+      if (refine && best > first && best < last) {
+        const float before = scores.at(u, v, best - 1), after = scores.at(u, v, best + 1);
+        const float curve = before - 2 * peak + after;
+        if (before >= 0 && after >= 0 && curve < 0)
+          h += float(hypotheses.step()) * std::clamp(0.5f * (before - after) / curve, -0.5f, 0.5f);
+      }
+      disparity.row(v)[u] = h;
+    }
+  }
+}
+
+}  // namespace gigaray::reference

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Gigaray authors
+#include "gigaray/backend.h"
+
+#include <bit>
+#include <cmath>
+
+namespace gigaray {
+
+// The order of floats as unsigned integers: negative ones reversed, below the positive ones.
+PackedEstimate pack_estimate(float hypothesis, float confidence) {
+  const auto bits = std::bit_cast<std::uint32_t>(hypothesis);
+  const std::uint32_t key = bits & 0x80000000u ? ~bits : bits | 0x80000000u;
+  return PackedEstimate(key) << 32 | std::bit_cast<std::uint32_t>(std::max(confidence, 0.0f));
+}
+
+float hypothesis_of(PackedEstimate estimate) {
+  if (estimate == 0) return kNoEstimate;
+  const auto key = std::uint32_t(estimate >> 32);
+  return std::bit_cast<float>(key & 0x80000000u ? key & 0x7fffffffu : ~key);
+}
+
+float confidence_of(PackedEstimate estimate) {
+  return std::bit_cast<float>(std::uint32_t(estimate));
+}
+
+std::vector<float> colour_table(int bit_depth, bool linear_rgb) {
+  std::vector<float> table(std::size_t(1) << bit_depth);
+  for (std::size_t i = 0; i < table.size(); ++i) {
+    const double x = double(i) / double(table.size() - 1);
+    // IEC 61966-2-1, the sRGB transfer function.
+    const double linear = x <= 0.04045 ? x / 12.92 : std::pow((x + 0.055) / 1.055, 2.4);
+    table[i] = float(linear_rgb ? linear : x);
+  }
+  return table;
+}
+
+}  // namespace gigaray

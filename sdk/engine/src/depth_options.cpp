@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Gigaray authors
+#include "gigaray/depth_options.h"
+
+#include <cmath>
+#include <sstream>
+
+#include "gigaray/error.h"
+
+namespace gigaray {
+namespace {
+
+template <class T>
+void in_range(const char* field, T value, T least, T most) {
+  if (value >= least && value <= most) return;
+  std::ostringstream text;
+  text << field << " is " << value << "; it must be between " << least << " and " << most;
+  throw Error(ErrorCode::kInvalidArgument, text.str());
+}
+
+}  // namespace
+
+void DepthOptions::check() const {
+  constexpr float kTiny = 1e-6f, kLarge = 100.0f;
+  if (disparity) {
+    std::ostringstream text;
+    text << "disparity range " << disparity->min << " " << disparity->max;
+    if (!std::isfinite(disparity->min) || !std::isfinite(disparity->max))
+      throw Error(ErrorCode::kInvalidArgument, text.str() + ": not finite numbers");
+    if (disparity->min >= disparity->max)
+      throw Error(ErrorCode::kInvalidArgument, text.str() + ": the first must be the smaller one");
+    if (disparity->max - disparity->min < 1e-3)
+      throw Error(ErrorCode::kInvalidArgument, text.str() + ": too narrow to be sampled");
+  }
+  if (hypotheses != 0) in_range("hypotheses", hypotheses, 2, 4096);
+  in_range("hypothesis_step", hypothesis_step, 1e-4, 100.0);
+  in_range("edge.radius", edge.radius, 1, 16);
+  in_range("score.bandwidth", score.bandwidth, kTiny, kLarge);
+  in_range("score.gradient_bandwidth", score.gradient_bandwidth, kTiny, kLarge);
+  in_range("score.gradient_share", score.gradient_share, 0.0f, 1.0f);
+  in_range("score.mean_shift_iterations", score.mean_shift_iterations, 0, 100);
+  in_range("score.min_views", score.min_views, 0.0f, 1.0f);
+  in_range("score.floor_views", score.floor_views, 0.0f, 1.0f);
+  in_range("support.radius", support.radius, 0, 8);
+  if (support.radius > 0 && score.min_views > 0)
+    throw Error(ErrorCode::kInvalidArgument,
+                "support.radius above 0 needs score.min_views 0: every score must be a number");
+  in_range("support.sigma_colour", support.sigma_colour, kTiny, kLarge);
+  in_range("support.sigma_space", support.sigma_space, kTiny, kLarge);
+  in_range("winner.median_radius", winner.median_radius, 0, 8);
+  in_range("winner.median_tolerance", winner.median_tolerance, kTiny, kLarge);
+  in_range("propagation.tolerance", propagation.tolerance, kTiny, kLarge);
+  in_range("propagation.final_median_radius", propagation.final_median_radius, 0, 8);
+  if (memory_bytes < 0 || std::isnan(memory_bytes))
+    throw Error(ErrorCode::kInvalidArgument, "memory must not be negative");
+}
+
+DepthOptions paper_options() {
+  DepthOptions options;
+  options.preset = "paper";
+  options.hypotheses = 256;
+  return options;
+}
+
+DepthOptions auto_options() {
+  DepthOptions options;
+  options.preset = "auto";
+  options.edge.threshold = -1;
+  options.score.linear_rgb = false;
+  options.score.cubic = true;
+  options.score.gradient = true;
+  options.score.from_noise = true;
+  options.score.mean_shift_iterations = 0;
+  options.score.min_views = 0;
+  options.score.floor_views = 0.25f;
+  options.support.radius = 4;
+  options.winner.refine = true;
+  options.winner.median_radius = 2;
+  options.winner.weigh_by_edge = false;
+  return options;
+}
+
+DepthOptions preset_options(const std::string& name) {
+  if (name == "paper") return paper_options();
+  if (name == "auto") return auto_options();
+  throw Error(ErrorCode::kInvalidArgument, "preset " + name + ": there are auto and paper");
+}
+
+}  // namespace gigaray

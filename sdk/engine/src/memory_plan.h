@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Gigaray authors
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "gigaray/reconstruct.h"
+
+namespace gigaray {
+
+/// Sizes of one level and how it is walked.
+struct LevelPlan {
+  LevelShape shape;
+  int band_rows = 0;  ///< Rows of a band without halo.
+  int halo = 0;       ///< Rows around a band that the steps look at in one view.
+};
+
+/// How a run fits into the memory it may take.
+struct MemoryPlan {
+  std::vector<LevelPlan> levels;
+  std::string work_folder;        ///< Where rows are stored; empty: in memory.
+  std::size_t volume_bytes = 0;   ///< Most for the scores of a strip.
+  Forecast forecast;
+};
+
+/// options: resolved (range, hypotheses). Throws Error(kOutOfMemory) when even one row at a time does
+/// not fit.
+MemoryPlan plan_memory(const LightField& light_field, const DepthOptions& options,
+                       const HypothesisRange& hypotheses);
+
+/// Sizes of all levels: halved, odd sizes rounded up, until a dimension would fall below 10 px.
+std::vector<LevelShape> level_shapes(int width, int height, bool fine_to_coarse);
+
+}  // namespace gigaray

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Gigaray authors
+#include "morphology.h"
+
+#include <algorithm>
+
+namespace gigaray {
+namespace {
+
+/// Minimum or maximum over a pixel and its four neighbours; outside the picture nothing counts.
+template <class Pick>
+StripMap<std::uint8_t> over_cross(const StripMap<std::uint8_t>& in, RowRange rows, int height,
+                                  Pick pick) {
+  StripMap<std::uint8_t> out(in.width(), rows);
+  for (int v = rows.begin; v < rows.end; ++v) {
+    const std::uint8_t* above = in.row(std::max(v - 1, 0));
+    const std::uint8_t* here = in.row(v);
+    const std::uint8_t* below = in.row(std::min(v + 1, height - 1));
+    for (int u = 0; u < in.width(); ++u) {
+      const std::uint8_t left = here[std::max(u - 1, 0)];
+      const std::uint8_t right = here[std::min(u + 1, in.width() - 1)];
+      out.row(v)[u] = pick(pick(pick(above[u], below[u]), pick(left, right)), here[u]);
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
+StripMap<std::uint8_t> open_mask(const StripMap<std::uint8_t>& mask, RowRange rows, int height) {
+  const auto least = [](std::uint8_t a, std::uint8_t b) { return std::min(a, b); };
+  const auto most = [](std::uint8_t a, std::uint8_t b) { return std::max(a, b); };
+  return over_cross(over_cross(mask, grown(rows, 1, height), height, least), rows, height, most);
+}
+
+void dilate(int radius, int height, StripMap<std::uint8_t>& todo,
+            StripMap<HypothesisBounds>& bounds) {
+  const int width = todo.width();
+  const RowRange rows = todo.rows();
+  GIGARAY_CHECK((rows == RowRange{0, height}));
+  const auto join = [](std::uint8_t& todo, HypothesisBounds& bounds, std::uint8_t other_todo,
+                       HypothesisBounds other) {
+    if (!other_todo) return;
+    bounds = todo ? HypothesisBounds{std::min(bounds.first, other.first),
+                                     std::max(bounds.last, other.last)}
+                  : other;
+    todo = 1;
+  };
+  StripMap<std::uint8_t> along_u = todo;
+  StripMap<HypothesisBounds> bounds_u = bounds;
+  for (int v = 0; v < height; ++v)
+    for (int u = 0; u < width; ++u) {
+      if (!todo.row(v)[u]) continue;
+      for (int x = std::max(u - radius, 0); x <= std::min(u + radius, width - 1); ++x)
+        join(along_u.row(v)[x], bounds_u.row(v)[x], 1, bounds.row(v)[u]);
+    }
+  todo = along_u;
+  bounds = bounds_u;
+  for (int v = 0; v < height; ++v)
+    for (int y = std::max(v - radius, 0); y <= std::min(v + radius, height - 1); ++y) {
+      if (y == v) continue;
+      for (int u = 0; u < width; ++u)
+        join(todo.row(v)[u], bounds.row(v)[u], along_u.row(y)[u], bounds_u.row(y)[u]);
+    }
+}
+
+}  // namespace gigaray

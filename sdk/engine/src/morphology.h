@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Gigaray authors
+#pragma once
+
+#include "gigaray/backend.h"
+
+namespace gigaray {
+
+/// Opening of a mask by a cross of 3 px: removes isolated pixels and keeps lines of two. mask: rows of
+/// `rows` and two more on both sides where the picture has them. Returns the rows of `rows`.
+StripMap<std::uint8_t> open_mask(const StripMap<std::uint8_t>& mask, RowRange rows, int height);
+
+/// Pixels within `radius` (a square) of a pixel to do, with bounds that cover those of all such
+/// pixels: where scores are needed so that support finds them.
+void dilate(int radius, int height, StripMap<std::uint8_t>& todo,
+            StripMap<HypothesisBounds>& bounds);
+
+}  // namespace gigaray

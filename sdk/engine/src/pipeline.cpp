@@ -1,0 +1,377 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Gigaray authors
+#include "pipeline.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <exception>
+#include <limits>
+#include <mutex>
+#include <thread>
+
+#include "morphology.h"
+#include "stage_timer.h"
+
+namespace gigaray {
+
+Pipeline::Pipeline(const LightField& light_field, const DepthOptions& options,
+                   const HypothesisRange& hypotheses, const MemoryPlan& plan, Backend& backend,
+                   const RunControl& control)
+    : light_field_(light_field),
+      options_(options),
+      hypotheses_(hypotheses),
+      plan_(plan),
+      backend_(backend),
+      control_(control),
+      sampler_(make_sampler(light_field)),
+      tuples_(plan.work_folder) {
+  for (const int view : views_from_centre(light_field))
+    if (options.views.empty() ||
+        std::find(options.views.begin(), options.views.end(), view) != options.views.end())
+      active_.push_back(view);
+}
+
+void Pipeline::run() {
+  backend_.set_active_views(active_);
+  for (level_ = 0; level_ < int(plan_.levels.size()); ++level_) {
+    begin_level(level_);
+    find_edges_and_downsample();
+    for (int i = 0; i < int(active_.size()); ++i) {
+      report(double(i) / double(active_.size()));
+      ViewMaps maps;
+      if (!find_todo(i, maps)) continue;
+      score_view(i, maps);
+      accept_view(i, maps);
+    }
+    if (!is_last_level()) coarsen();
+    levels_[level_].pixels = RowStore();
+  }
+  report(0);
+}
+
+void Pipeline::report(double done) {
+  // A level has a quarter of the pixels of the level before: its share of the work.
+  const double before = 1 - std::pow(0.25, level_), share = 0.75 * std::pow(0.25, level_);
+  const bool finished = level_ >= int(plan_.levels.size());
+  control_.progress(finished ? "depth" : "level " + std::to_string(level_),
+                    finished ? 1 : before + share * done, 1);
+}
+
+// ---- Pixels -------------------------------------------------------------------------------------
+
+void Pipeline::decode() {
+  const StageTimer timer(seconds_, "decode");
+  const int width = light_field_.width, height = light_field_.height;
+  const std::size_t value_bytes = light_field_.pixels->bit_depth() / 8;
+  const std::size_t line = std::size_t(width) * 3;
+  RowStore& pixels = levels_[0].pixels;
+
+  std::atomic<int> next{0}, done{0};
+  std::exception_ptr failure;
+  std::mutex mutex;
+  const auto work = [&](bool is_caller) {
+    std::vector<std::uint8_t> bytes(line);
+    try {
+      for (int view; (view = next++) < light_field_.num_views();) {
+        if (control_.cancelled()) break;
+        if (is_caller) control_.progress("decode", done, light_field_.num_views());
+        const Image<std::uint16_t> picture = light_field_.pixels->read(view);
+        if (picture.width() != width || picture.height() != height || picture.channels() != 3)
+          throw Error(ErrorCode::kBadInput,
+                      "view " + light_field_.views[view].name + " is " +
+                          std::to_string(picture.width()) + "x" + std::to_string(picture.height()) +
+                          ", the others are " + std::to_string(width) + "x" + std::to_string(height));
+        for (int v = 0; v < height; ++v) {
+          const void* row = picture.row(v);
+          if (value_bytes == 1) {
+            std::copy(picture.row(v), picture.row(v) + line, bytes.begin());
+            row = bytes.data();
+          }
+          pixels.write(v, view * line * value_bytes, line * value_bytes, row);
+        }
+        ++done;
+      }
+    } catch (...) {
+      const std::lock_guard lock(mutex);
+      if (!failure) failure = std::current_exception();
+      next = light_field_.num_views();
+    }
+  };
+  {
+    std::vector<std::jthread> helpers;
+    const unsigned threads = std::clamp(std::thread::hardware_concurrency(), 1u, 4u);
+    for (unsigned i = 1; i < threads; ++i) helpers.emplace_back(work, false);
+    work(true);
+  }
+  if (failure) std::rethrow_exception(failure);
+  control_.throw_if_cancelled();
+}
+
+void Pipeline::begin_level(int level) {
+  const LevelShape& shape = plan_.levels[level].shape;
+  const std::size_t views = light_field_.num_views(), active = active_.size(), width = shape.width;
+  if (level == 0) {
+    LevelState state;
+    state.shape = shape;
+    state.pixels = make_store(shape.height, views * width * 3 * (light_field_.pixels->bit_depth() / 8));
+    levels_.push_back(std::move(state));
+    decode();
+  }
+  LevelState& state = levels_[level];
+  state.estimates = make_store(shape.height, active * width * sizeof(PackedEstimate));
+  if (options_.edge.threshold >= 0 && !is_last_level())
+    state.mask = make_store(shape.height, active * width);
+  if (!is_last_level()) {
+    LevelState next;
+    next.shape = plan_.levels[level + 1].shape;
+    next.pixels = make_store(next.shape.height, views * 3 * next.shape.width * sizeof(float));
+    next.search = make_store(next.shape.height, active * next.shape.width * sizeof(Search));
+    levels_.push_back(std::move(next));
+  }
+  backend_.begin_level(shape);
+  loaded_band_ = {};
+}
+
+std::vector<RowRange> Pipeline::bands() const {
+  const LevelPlan& plan = plan_.levels[level_];
+  std::vector<RowRange> bands;
+  for (int v = 0; v < plan.shape.height; v += plan.band_rows)
+    bands.push_back({v, std::min(v + plan.band_rows, plan.shape.height)});
+  return bands;
+}
+
+RowRange Pipeline::rows_needed(RowRange rows) const {
+  return std::visit(
+      [&](const auto& sampler) {
+        return sampler.at_level(level_).rows_needed(rows, hypotheses_,
+                                                    plan_.levels[level_].shape.height);
+      },
+      sampler_);
+}
+
+void Pipeline::load_band(RowRange band) {
+  control_.throw_if_cancelled();
+  if (band == loaded_band_) return;
+  const StageTimer timer(seconds_, "load");
+  const LevelPlan& plan = plan_.levels[level_];
+  const RowRange rows = rows_needed(grown(band, plan.halo, plan.shape.height));
+  const BandEncoding encoding = level_ > 0                                  ? BandEncoding::kFloat
+                                : light_field_.pixels->bit_depth() == 8 ? BandEncoding::kBits8
+                                                                        : BandEncoding::kBits16;
+  backend_.load_band(rows, levels_[level_].pixels.open(rows, band_scratch_), encoding);
+  loaded_band_ = band;
+}
+
+void Pipeline::find_edges_and_downsample() {
+  LevelState& state = levels_[level_];
+  if (state.mask.empty() && is_last_level()) return;
+  const int width = state.shape.width, height = state.shape.height;
+  AlignedBytes scratch;
+  for (const RowRange band : bands()) {
+    load_band(band);
+    if (!state.mask.empty()) {
+      const StageTimer timer(seconds_, "edges");
+      for (std::size_t i = 0; i < active_.size(); ++i) {
+        const RowRange around = grown(band, options_.edge.opening ? 2 : 0, height);
+        StripMap<float> confidence(width, around);
+        backend_.edge_confidence(active_[i], around, confidence);
+        StripMap<std::uint8_t> mask(width, around);
+        for (int v = around.begin; v < around.end; ++v)
+          for (int u = 0; u < width; ++u)
+            mask.row(v)[u] = confidence.row(v)[u] > options_.edge.threshold;
+        if (options_.edge.opening) mask = open_mask(mask, band, height);
+        for (int v = band.begin; v < band.end; ++v)
+          state.mask.write(v, i * width, width, mask.row(v));
+      }
+    }
+    if (!is_last_level()) {
+      const StageTimer timer(seconds_, "downsample");
+      LevelState& next = levels_[level_ + 1];
+      const RowRange small{(band.begin + 1) / 2, (band.end + 1) / 2};
+      if (small.size() == 0) continue;
+      scratch.at_least(small.size() * next.pixels.row_bytes());
+      backend_.downsample(small, reinterpret_cast<float*>(scratch.data()));
+      for (int v = small.begin; v < small.end; ++v)
+        next.pixels.write(v, 0, next.pixels.row_bytes(),
+                          scratch.data() + std::size_t(v - small.begin) * next.pixels.row_bytes());
+    }
+  }
+}
+
+// ---- Views --------------------------------------------------------------------------------------
+
+bool Pipeline::find_todo(int active_idx, ViewMaps& maps) {
+  const StageTimer timer(seconds_, "select");
+  const LevelState& state = levels_[level_];
+  const int width = state.shape.width, height = state.shape.height;
+  const RowRange all{0, height};
+  maps.todo = StripMap<std::uint8_t>(width, all);
+  maps.bounds = StripMap<HypothesisBounds>(width, all);
+  maps.disparity = StripMap<float>(width, all);
+  maps.confidence = StripMap<float>(width, all);
+
+  const HypothesisBounds full{0, std::uint16_t(hypotheses_.count - 1)};
+  const std::size_t at = std::size_t(active_idx) * width;
+  std::vector<PackedEstimate> estimates(width);
+  std::vector<std::uint8_t> mask(width, 1);
+  std::vector<Search> search(width);
+  bool any = false;
+  for (int v = 0; v < height; ++v) {
+    state.estimates.read(v, at * sizeof(PackedEstimate), width * sizeof(PackedEstimate),
+                         estimates.data());
+    if (!state.mask.empty()) state.mask.read(v, at, width, mask.data());
+    if (level_ > 0)
+      state.search.read(v, at * sizeof(Search), width * sizeof(Search), search.data());
+    for (int u = 0; u < width; ++u) {
+      maps.disparity.row(v)[u] = hypothesis_of(estimates[u]);
+      if (estimates[u] != 0 || !mask[u]) continue;
+      if (level_ > 0 && std::isnan(search[u].low)) continue;
+      maps.todo.row(v)[u] = 1;
+      maps.bounds.row(v)[u] = level_ > 0 ? bounds_of(search[u], hypotheses_) : full;
+      any = true;
+    }
+  }
+  return any;
+}
+
+namespace {
+
+bool anything_todo(const StripMap<std::uint8_t>& todo, RowRange rows) {
+  for (int v = rows.begin; v < rows.end; ++v)
+    if (std::any_of(todo.row(v), todo.row(v) + todo.width(), [](auto x) { return x != 0; }))
+      return true;
+  return false;
+}
+
+}  // namespace
+
+void Pipeline::score_view(int active_idx, ViewMaps& maps) {
+  const LevelShape& shape = levels_[level_].shape;
+  const int radius = options_.support.radius;
+  StripMap<std::uint8_t> score_todo;
+  StripMap<HypothesisBounds> score_bounds;
+  if (radius > 0) {
+    const StageTimer timer(seconds_, "select");
+    score_todo = maps.todo;
+    score_bounds = maps.bounds;
+    dilate(radius, shape.height, score_todo, score_bounds);
+  }
+  const std::size_t row_bytes =
+      std::size_t(maps.todo.pitch()) * hypotheses_.count * sizeof(float);
+  const int strip_rows = std::max(int(plan_.volume_bytes / row_bytes) - 2 * radius, 1);
+  for (const RowRange band : bands()) {
+    if (!anything_todo(maps.todo, band)) continue;
+    load_band(band);
+    for (int v = band.begin; v < band.end; v += strip_rows) {
+      const RowRange strip{v, std::min(v + strip_rows, band.end)};
+      control_.throw_if_cancelled();
+      if (anything_todo(maps.todo, strip))
+        score_strip(active_[active_idx], strip, maps, radius > 0 ? score_todo : maps.todo,
+                    radius > 0 ? score_bounds : maps.bounds);
+    }
+  }
+}
+
+void Pipeline::score_strip(int view, RowRange rows, ViewMaps& maps,
+                           const StripMap<std::uint8_t>& score_todo,
+                           const StripMap<HypothesisBounds>& score_bounds) {
+  const LevelShape& shape = levels_[level_].shape;
+  StripMap<float> disparity(shape.width, rows), contrast(shape.width, rows), edges;
+  {
+    const StageTimer timer(seconds_, "score");
+    backend_.density_score(view, grown(rows, options_.support.radius, shape.height), score_todo,
+                           score_bounds);
+  }
+  if (options_.support.radius > 0) {
+    const StageTimer timer(seconds_, "support");
+    backend_.score_support(view, rows, maps.todo, maps.bounds);
+  }
+  {
+    const StageTimer timer(seconds_, "winner");
+    backend_.winner(rows, maps.todo, maps.bounds, disparity, contrast);
+  }
+  if (options_.winner.weigh_by_edge) {
+    const StageTimer timer(seconds_, "edges");
+    edges = StripMap<float>(shape.width, rows);
+    backend_.edge_confidence(view, rows, edges);
+  }
+  for (int v = rows.begin; v < rows.end; ++v)
+    for (int u = 0; u < shape.width; ++u) {
+      if (!maps.todo.row(v)[u]) continue;
+      maps.disparity.row(v)[u] = disparity.row(v)[u];
+      maps.confidence.row(v)[u] =
+          contrast.row(v)[u] * (options_.winner.weigh_by_edge ? edges.row(v)[u] : 1.0f);
+    }
+}
+
+void Pipeline::accept_view(int active_idx, ViewMaps& maps) {
+  LevelState& state = levels_[level_];
+  const int width = state.shape.width, view = active_[active_idx];
+  const float threshold =
+      is_last_level() ? -std::numeric_limits<float>::infinity() : options_.winner.min_confidence;
+  for (const RowRange band : bands()) {
+    if (!anything_todo(maps.todo, band)) continue;
+    load_band(band);
+    StripMap<float> accepted(width, band);
+    if (options_.winner.median_radius > 0) {
+      const StageTimer timer(seconds_, "median");
+      backend_.bilateral_median(view, band, options_.winner.median_radius,
+                                options_.winner.median_tolerance, maps.disparity, accepted);
+    } else {
+      for (int v = band.begin; v < band.end; ++v)
+        std::copy_n(maps.disparity.row(v), width, accepted.row(v));
+    }
+    for (int v = band.begin; v < band.end; ++v)
+      for (int u = 0; u < width; ++u)
+        if (!maps.todo.row(v)[u] || !(maps.confidence.row(v)[u] > threshold))
+          accepted.row(v)[u] = kNoEstimate;
+
+    StripMap<Radiance> radiance(width, band);
+    {
+      const StageTimer timer(seconds_, "radiance");
+      backend_.mean_radiance(view, band, accepted, radiance);
+    }
+    const StageTimer timer(seconds_, "propagate");
+    for (int v = band.begin; v < band.end; ++v)
+      for (int u = 0; u < width; ++u)
+        if (const float h = accepted.row(v)[u]; !std::isnan(h))
+          tuples_.append({h, maps.confidence.row(v)[u], radiance.row(v)[u], view, u, v, level_});
+    const RowRange reached = rows_needed(band);
+    std::byte* estimates = state.estimates.open(reached, state_scratch_);
+    backend_.propagation(view, band, accepted, maps.confidence, radiance, reached,
+                         reinterpret_cast<PackedEstimate*>(estimates));
+    state.estimates.close(reached, estimates);
+  }
+}
+
+void Pipeline::coarsen() {
+  const StageTimer timer(seconds_, "bounds");
+  const LevelState& fine = levels_[level_];
+  LevelState& coarse = levels_[level_ + 1];
+  const std::size_t width = fine.shape.width, small = coarse.shape.width, active = active_.size();
+  AlignedBytes estimate_scratch, search_scratch;
+  std::vector<PackedEstimate> estimates(2 * width);
+  std::vector<Search> search(level_ > 0 ? 2 * width : 0), row(small);
+  for (int v = 0; v < coarse.shape.height; ++v) {
+    control_.throw_if_cancelled();
+    const RowRange rows{2 * v, std::min(2 * v + 2, fine.shape.height)};
+    const auto* all_estimates = reinterpret_cast<const PackedEstimate*>(
+        fine.estimates.open(rows, estimate_scratch));
+    const Search* all_search =
+        level_ > 0 ? reinterpret_cast<const Search*>(fine.search.open(rows, search_scratch)) : nullptr;
+    for (std::size_t i = 0; i < active; ++i) {
+      for (int y = 0; y < rows.size(); ++y) {
+        const std::size_t at = (std::size_t(y) * active + i) * width;
+        std::copy_n(all_estimates + at, width, estimates.begin() + y * width);
+        if (all_search) std::copy_n(all_search + at, width, search.begin() + y * width);
+      }
+      coarsen_bounds(std::span(estimates).first(rows.size() * width),
+                     std::span(search).first(all_search ? rows.size() * width : 0), int(width),
+                     hypotheses_, row);
+      coarse.search.write(v, i * small * sizeof(Search), small * sizeof(Search), row.data());
+    }
+  }
+}
+
+}  // namespace gigaray

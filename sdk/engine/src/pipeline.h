@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Gigaray authors
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "gigaray/reconstruct.h"
+#include "gigaray/samplers/any_sampler.h"
+#include "memory_plan.h"
+#include "row_store.h"
+#include "search_bounds.h"
+#include "tuple_store.h"
+
+namespace gigaray {
+
+/// What is kept of one level. Rows of all views (or of the active ones) side by side, so that a band
+/// is one sequential read.
+struct LevelState {
+  LevelShape shape;
+  RowStore pixels;     ///< [v][view]: level 0 [u][3] as decoded, else [3][u] floats
+  RowStore mask;       ///< [v][active view][u]: worth trying; empty: everything is
+  RowStore estimates;  ///< [v][active view][u] PackedEstimate
+  RowStore search;     ///< [v][active view][u] Search; empty at level 0
+};
+
+/// Walks the levels from fine to coarse, in each the views from the centre outwards, in each the bands
+/// from top to bottom. The order of views and levels is fixed; a view is complete before the next one
+/// starts. That makes the result independent of the bands.
+class Pipeline {
+ public:
+  Pipeline(const LightField& light_field, const DepthOptions& options,
+           const HypothesisRange& hypotheses, const MemoryPlan& plan, Backend& backend,
+           const RunControl& control);
+
+  void run();
+
+  std::vector<LevelState>& levels() { return levels_; }
+  const std::vector<int>& active_views() const { return active_; }
+  TupleStore& tuples() { return tuples_; }
+  std::map<std::string, double>& seconds() { return seconds_; }
+
+ private:
+  /// Maps of the view that is worked on; all rows.
+  struct ViewMaps {
+    StripMap<std::uint8_t> todo;
+    StripMap<HypothesisBounds> bounds;
+    StripMap<float> disparity;   ///< Winners of this pass and what the view already has.
+    StripMap<float> confidence;
+  };
+
+  void decode();
+  void begin_level(int level);
+  void find_edges_and_downsample();
+  bool find_todo(int active_idx, ViewMaps& maps);
+  void score_view(int active_idx, ViewMaps& maps);
+  void score_strip(int view, RowRange rows, ViewMaps& maps, const StripMap<std::uint8_t>& score_todo,
+                   const StripMap<HypothesisBounds>& score_bounds);
+  void accept_view(int active_idx, ViewMaps& maps);
+  void coarsen();
+
+  std::vector<RowRange> bands() const;
+  void load_band(RowRange band);
+  RowRange rows_needed(RowRange rows) const;
+  bool is_last_level() const { return level_ + 1 == int(plan_.levels.size()); }
+  RowStore make_store(int rows, std::size_t row_bytes) const {
+    return RowStore(rows, row_bytes, plan_.work_folder);
+  }
+  void report(double done);
+
+  const LightField& light_field_;
+  const DepthOptions& options_;
+  const HypothesisRange hypotheses_;
+  const MemoryPlan& plan_;
+  Backend& backend_;
+  const RunControl& control_;
+  AnySampler sampler_;
+
+  std::vector<int> active_;  ///< views that get depth, from the centre outwards
+  std::vector<LevelState> levels_;
+  TupleStore tuples_;
+  std::map<std::string, double> seconds_;
+
+  int level_ = 0;
+  RowRange loaded_band_;
+  AlignedBytes band_scratch_, state_scratch_;
+};
+
+}  // namespace gigaray

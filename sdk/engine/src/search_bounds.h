@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Gigaray authors
+#pragma once
+
+#include <span>
+
+#include "gigaray/backend.h"
+
+namespace gigaray {
+
+/// What a pixel of a coarser level knows from the finer ones.
+struct Search {
+  float low = kNoEstimate;   ///< Bounds of its search; NaN: it needs none, all finer pixels have
+  float high = kNoEstimate;  ///< an estimate
+  float known_low = kNoEstimate;   ///< Least and greatest estimate of the finer pixels that have one;
+  float known_high = kNoEstimate;  ///< NaN: none has
+};
+
+/// Depth bounds of one level down (section 4.5). A pixel without an estimate gets the least and the
+/// greatest of the nearest reliable estimates to its left and right; a side without one leaves the
+/// bound open (the full range). A coarse pixel joins those of its finer pixels.
+///   estimates, search  two fine rows (or one, at the bottom of an odd height), width values each;
+///                      search is empty at level 0
+///   coarse             (width + 1) / 2 values
+void coarsen_bounds(std::span<const PackedEstimate> estimates, std::span<const Search> search,
+                    int width, const HypothesisRange& range, std::span<Search> coarse);
+
+/// The hypotheses between the bounds of a search, one more on both sides.
+HypothesisBounds bounds_of(const Search& search, const HypothesisRange& range);
+
+}  // namespace gigaray
