@@ -81,8 +81,8 @@ void Console::show_progress(const std::string& stage, double done, double total)
   std::string line = fmt::format("{}  [{:#<{}}{:<{}}] {:3.0f} %", stage, "", filled, "",
                                  kBarWidth - filled, 100 * share);
   if (seconds > 0.5 && share > 0)
-    line += fmt::format("  {:.3g}/s  {} left", done / seconds,
-                        duration(seconds * (1 - share) / share));
+    line +=
+        fmt::format("  {:.3g}/s  {} left", done / seconds, duration(seconds * (1 - share) / share));
   line.resize(std::min(line.size(), std::size_t(std::max(terminal_width() - 1, 1))));
   fmt::print(stderr, "\r{}\x1b[K", line);
   std::fflush(stderr);

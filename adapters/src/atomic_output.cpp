@@ -96,8 +96,9 @@ void AtomicFolder::check_target() const {
   if (error) cannot_write(target_, error);
   if (!empty && format_of(target_) != format_)
     throw Error(ErrorCode::kInvalidArgument,
-                target_.string() + ": is not empty and no earlier output of this command; name "
-                                   "another folder");
+                target_.string() +
+                    ": is not empty and no earlier output of this command; name "
+                    "another folder");
 }
 
 void AtomicFolder::commit() {

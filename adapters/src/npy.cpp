@@ -25,7 +25,9 @@ FloatMap read_npy(const std::filesystem::path& path) {
     return Error(ErrorCode::kBadInput, path.string() + ": " + what);
   };
   if (!bytes.starts_with(kMagic) || bytes.size() < 12) throw bad("is no NumPy file");
-  const auto byte = [&](std::size_t i) { return std::size_t(static_cast<unsigned char>(bytes[i])); };
+  const auto byte = [&](std::size_t i) {
+    return std::size_t(static_cast<unsigned char>(bytes[i]));
+  };
   const bool version_1 = byte(6) == 1;
   const std::size_t begin = version_1 ? 10 : 12;
   const std::size_t length =

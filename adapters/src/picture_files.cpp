@@ -136,8 +136,8 @@ std::string size_text(int width, int height) {
 
 bool is_picture_name(const fs::path& path) {
   static constexpr std::array<std::string_view, 17> kExtensions{
-      ".jpg", ".jpeg", ".jpe", ".png", ".tif", ".tiff", ".bmp", ".dib", ".ppm",
-      ".pgm", ".pbm",  ".pnm", ".webp", ".jp2", ".tga", ".heic", ".gif"};
+      ".jpg", ".jpeg", ".jpe", ".png",  ".tif", ".tiff", ".bmp",  ".dib", ".ppm",
+      ".pgm", ".pbm",  ".pnm", ".webp", ".jp2", ".tga",  ".heic", ".gif"};
   const std::string extension = lower(path.extension().string());
   return std::find(kExtensions.begin(), kExtensions.end(), extension) != kExtensions.end();
 }

@@ -17,7 +17,8 @@ bool is_picture_name(const std::filesystem::path& path);
 /// Regular, visible files of a folder, sorted by name. Throws Error(kBadInput) or Error(kIo).
 std::vector<std::filesystem::path> files_of(const std::filesystem::path& folder);
 
-/// Regular, visible files of a folder whose name looks like a picture. Nothing when it is no folder.
+/// Regular, visible files of a folder whose name looks like a picture. Nothing when it is no
+/// folder.
 std::vector<std::filesystem::path> pictures_of(const std::filesystem::path& folder);
 
 /// Sets width, height and pixels of `light_field` from its pictures, one per view in their order,

@@ -5,8 +5,8 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "png_bytes.h"
 #include "gigaray/adapters/atomic_output.h"
+#include "png_bytes.h"
 
 namespace gigaray {
 

@@ -3,10 +3,12 @@
 #include "kernels/fma_limit.h"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <string_view>
 
 #include "opencl/buffer.h"
 #include "opencl/program_cache.h"
@@ -59,17 +61,20 @@ Kernel build(Device& device, const char* name, int lanes) {
       device, opencl::build_program(device, {&part, 1}, "-DLANES=" + std::to_string(lanes)), name);
 }
 
-/// Seconds of the fastest of several runs.
+/// Seconds of the fastest of several runs, half a second of them: other work disturbs some.
 double best_seconds(const Device& device, const std::function<void()>& run) {
   using Clock = std::chrono::steady_clock;
   run();
   device.finish();
   double best = 1e30;
-  for (int repeat = 0; repeat < 5; ++repeat) {
+  double total = 0;
+  for (int repeat = 0; repeat < 5 || total < 0.5; ++repeat) {
     const auto begin = Clock::now();
     run();
     device.finish();
-    best = std::min(best, std::chrono::duration<double>(Clock::now() - begin).count());
+    const double seconds = std::chrono::duration<double>(Clock::now() - begin).count();
+    best = std::min(best, seconds);
+    total += seconds;
   }
   return best;
 }
@@ -82,19 +87,21 @@ double measure_fma_per_second(Device& device) {
   // A GPU hides latency with many items per unit; a CPU thread runs one item at a time.
   const std::size_t group = gpu ? 64 : 1;
   const std::size_t items = std::size_t(info.compute_units) * (gpu ? 2048 : 8);
-  constexpr double kEnoughSeconds = 0.03;
 
   double best = 0;
-  for (const int lanes : {16, 8, 1}) {
+  for (const int lanes : gpu ? std::array{1, 4} : std::array{16, 8}) {
     Kernel kernel = build(device, "fma_chains", lanes);
     const Buffer out(device, items * lanes * sizeof(float));
-    for (int rounds = 1 << 10;; rounds *= 4) {
+    // Rounds that take about 20 ms, from the time of a short run.
+    const auto seconds_of = [&](int rounds) {
       kernel.set_args(out, rounds);
-      const double seconds = best_seconds(device, [&] { kernel.run(items, group); });
-      if (seconds < kEnoughSeconds && rounds < (1 << 28)) continue;
-      best = std::max(best, double(items) * lanes * kChains * kStepsPerRound * rounds / seconds);
-      break;
-    }
+      return best_seconds(device, [&] { kernel.run(items, group); });
+    };
+    constexpr int kShort = 1 << 12;
+    const double rounds =
+        std::clamp(kShort * 0.02 / seconds_of(kShort), double(kShort), double(1 << 28));
+    const double seconds = seconds_of(int(rounds));
+    best = std::max(best, double(items) * lanes * kChains * kStepsPerRound * int(rounds) / seconds);
   }
   return best;
 }

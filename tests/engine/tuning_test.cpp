@@ -104,7 +104,7 @@ TEST_F(TuningTable, SavingAgainReplacesOnlyThatDeviceAndKernel) {
 
 TEST_F(TuningTable, DamagedUserFileIsIgnoredAndReplaced) {
   const auto built_in = lookup_tuning(cpu(), "density_score");
-  overwrite(folder_ / "kernel_tuning.txt", std::string("\0\xff|||=\n=|= garbage", 20));
+  overwrite(folder_ / "kernel_tuning.txt", "\xff|||=\n=|= garbage\nany | density_score");
   EXPECT_EQ(lookup_tuning(cpu(), "density_score"), built_in);
   save_user_tuning(cpu(), "density_score", {{"LANES", 4}});
   EXPECT_EQ(lookup_tuning(cpu(), "density_score").at("LANES"), 4);

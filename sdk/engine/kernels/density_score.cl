@@ -30,12 +30,39 @@
 // A colour that no kernel reaches stands for "not inside the picture".
 #define FAR_AWAY 1e4f
 
-#if !GRADIENT
-inline vfloat epanechnikov(const vfloat* sample, const vfloat* mean, float inverse_h2) {
-  const vfloat r = sample[0] - mean[0], g = sample[1] - mean[1], b = sample[2] - mean[2];
-  return fmax(1.0f - (r * r + g * g + b * b) * inverse_h2, 0.0f);
+// Colours of view k under a hypothesis; FAR_AWAY where it sees nothing. Adds to count where it does.
+inline void sample_or_far(__global const float* band, const BandParams p,
+                          __global const float* views, int ref, int k, int u, int v, float h,
+                          vfloat* colour, vfloat* count) {
+  vfloat inside;
+  if (sample_lanes(band, p, views, ref, k, u, v, h, colour, &inside)) {
+    *count += inside;
+    colour[0] = VSELECT((vfloat)(FAR_AWAY), colour[0], inside > 0.0f);
+  } else {
+    colour[0] = colour[1] = colour[2] = (vfloat)(FAR_AWAY);
+  }
 }
-#endif
+
+// Epanechnikov kernel (eq. 4) of a colour around a mean.
+inline vfloat epanechnikov(vfloat red, vfloat green, vfloat blue, const vfloat* mean,
+                           float inverse_h2) {
+  const vfloat r = red - mean[0], g = green - mean[1], b = blue - mean[2];
+  return max(1.0f - (r * r + g * g + b * b) * inverse_h2, (vfloat)(0.0f));
+}
+
+// Sums of the kernels, and of the colours weighed by them, that a mean-shift step needs.
+typedef struct {
+  vfloat weights, red, green, blue;
+} MeanShiftSums;
+
+inline void add_sample(MeanShiftSums* sums, vfloat red, vfloat green, vfloat blue,
+                       const vfloat* mean, float inverse_h2) {
+  const vfloat w = epanechnikov(red, green, blue, mean, inverse_h2);
+  sums->weights += w;
+  sums->red += w * red;
+  sums->green += w * green;
+  sums->blue += w * blue;
+}
 
 __kernel void density_score(__global const float* band, const BandParams p, const StripParams strip,
                             __global const float* views, const HypothesisParams hypotheses,
@@ -64,64 +91,78 @@ __kernel void density_score(__global const float* band, const BandParams p, cons
   for (int i = first; i <= last; ++i) {
     const float h = hypotheses.min + i * hypotheses.step;
     vfloat count = (vfloat)(0.0f), density = (vfloat)(0.0f);
-    vfloat colour[CHANNELS], inside;
+    vfloat colour[CHANNELS];
 #if GRADIENT
+    vfloat inside;
     const float inverse_h = 1.0f / bandwidth, inverse_g = 1.0f / gradient_bandwidth;
     for (int k = 0; k < p.num_views; ++k) {
       if (!sample_lanes(band, p, views, strip.ref, k, u, v, h, colour, &inside)) continue;
       count += inside;
       const vfloat r = colour[0] - own[0], g = colour[1] - own[1], b = colour[2] - own[2];
       const vfloat gx = colour[3] - own[3], gy = colour[4] - own[4];
-      const vfloat k_colour = fmax(1.0f - sqrt(r * r + g * g + b * b) * inverse_h, 0.0f);
-      const vfloat k_gradient = fmax(1.0f - sqrt(gx * gx + gy * gy) * inverse_g, 0.0f);
+      const vfloat k_colour = max(1.0f - sqrt(r * r + g * g + b * b) * inverse_h, (vfloat)(0.0f));
+      const vfloat k_gradient = max(1.0f - sqrt(gx * gx + gy * gy) * inverse_g, (vfloat)(0.0f));
       // The gate keeps an occluder of another colour from scoring by its gradient.
       density += inside * ((1.0f - gradient_share) * k_colour +
-                           gradient_share * k_gradient * fmin(4.0f * k_colour, 1.0f));
+                           gradient_share * k_gradient * min(4.0f * k_colour, (vfloat)(1.0f)));
     }
 #else
     const float inverse_h2 = 1.0f / (bandwidth * bandwidth);
     vfloat mean[3] = {own[0], own[1], own[2]};
-    for (int iteration = 0; iteration <= ITERATIONS; ++iteration) {
-      vfloat weights = (vfloat)(0.0f), red = weights, green = weights, blue = weights;
-      for (int k = 0; k < p.num_views; ++k) {
 #if STAGE
-        if (iteration == 0) {
-          if (sample_lanes(band, p, views, strip.ref, k, u, v, h, colour, &inside)) {
-            count += inside;
-            colour[0] = VSELECT((vfloat)(FAR_AWAY), colour[0], inside > 0.0f);
-          } else {
-            colour[0] = colour[1] = colour[2] = (vfloat)(FAR_AWAY);
-          }
-          for (int c = 0; c < 3; ++c) staged[SLICE(3 * k + c)] = colour[c];
-        } else {
-          for (int c = 0; c < 3; ++c) colour[c] = staged[SLICE(3 * k + c)];
-        }
+    for (int k = 0; k < p.num_views; ++k) {
+      sample_or_far(band, p, views, strip.ref, k, u, v, h, colour, &count);
+      for (int c = 0; c < 3; ++c) staged[SLICE(3 * k + c)] = colour[c];
+    }
 #else
-        if (!sample_lanes(band, p, views, strip.ref, k, u, v, h, colour, &inside)) continue;
-        if (iteration == 0) count += inside;
-        colour[0] = VSELECT((vfloat)(FAR_AWAY), colour[0], inside > 0.0f);
+    for (int k = 0; k < p.num_views; ++k)
+      sample_or_far(band, p, views, strip.ref, k, u, v, h, colour, &count);
 #endif
-        const vfloat w = epanechnikov(colour, mean, inverse_h2);
-        weights += w;
-        red += w * colour[0];
-        green += w * colour[1];
-        blue += w * colour[2];
+    for (int iteration = 0; iteration < ITERATIONS; ++iteration) {
+      // Two sets of sums: one would leave the units waiting for the addition before.
+      MeanShiftSums even = {0.0f, 0.0f, 0.0f, 0.0f}, odd = {0.0f, 0.0f, 0.0f, 0.0f};
+      int k = 0;
+#if STAGE
+      for (; k + 1 < p.num_views; k += 2) {
+        add_sample(&even, staged[SLICE(3 * k)], staged[SLICE(3 * k + 1)], staged[SLICE(3 * k + 2)],
+                   mean, inverse_h2);
+        add_sample(&odd, staged[SLICE(3 * k + 3)], staged[SLICE(3 * k + 4)],
+                   staged[SLICE(3 * k + 5)], mean, inverse_h2);
       }
-      density = weights;
-      if (iteration == ITERATIONS) break;
-      // The reference's own sample keeps the sum of weights above zero at its own hypothesis ray.
-      const vfloat scale = 1.0f / fmax(weights, 1e-12f);
-      const vfloat moved_red = VSELECT(mean[0], red * scale, weights > 0.0f);
-      const vfloat moved_green = VSELECT(mean[1], green * scale, weights > 0.0f);
-      const vfloat moved_blue = VSELECT(mean[2], blue * scale, weights > 0.0f);
-      const vfloat dr = moved_red - mean[0], dg = moved_green - mean[1], db = moved_blue - mean[2];
-      mean[0] = moved_red;
-      mean[1] = moved_green;
-      mean[2] = moved_blue;
-      if (!VANY(dr * dr + dg * dg + db * db > MOVE_BOUND * MOVE_BOUND * bandwidth * bandwidth)) break;
+      if (k < p.num_views)
+        add_sample(&even, staged[SLICE(3 * k)], staged[SLICE(3 * k + 1)], staged[SLICE(3 * k + 2)],
+                   mean, inverse_h2);
+#else
+      vfloat ignored = (vfloat)(0.0f);
+      for (; k < p.num_views; ++k) {
+        sample_or_far(band, p, views, strip.ref, k, u, v, h, colour, &ignored);
+        add_sample(&even, colour[0], colour[1], colour[2], mean, inverse_h2);
+      }
+#endif
+      const vfloat weights = even.weights + odd.weights;
+      const vfloat scale = 1.0f / max(weights, (vfloat)(1e-12f));
+      const vfloat sum[3] = {even.red + odd.red, even.green + odd.green, even.blue + odd.blue};
+      vfloat moved = (vfloat)(0.0f);
+      for (int c = 0; c < 3; ++c) {
+        // Where no sample is near, the mean stays.
+        const vfloat next = VSELECT(mean[c], sum[c] * scale, weights > 0.0f);
+        moved += (next - mean[c]) * (next - mean[c]);
+        mean[c] = next;
+      }
+      if (!VANY(moved > MOVE_BOUND * MOVE_BOUND * bandwidth * bandwidth)) break;
+    }
+    for (int k = 0; k < p.num_views; ++k) {
+#if STAGE
+      density += epanechnikov(staged[SLICE(3 * k)], staged[SLICE(3 * k + 1)],
+                              staged[SLICE(3 * k + 2)], mean, inverse_h2);
+#else
+      vfloat ignored = (vfloat)(0.0f);
+      sample_or_far(band, p, views, strip.ref, k, u, v, h, colour, &ignored);
+      density += epanechnikov(colour[0], colour[1], colour[2], mean, inverse_h2);
+#endif
     }
 #endif
-    vfloat score = density / fmax(count, floor_views);
+    vfloat score = density / max(count, (vfloat)(floor_views));
     score = VSELECT((vfloat)(-1.0f), score, count >= (float)min_views);
     VSTORE(score, scores + score_index(strip, hypotheses.count, row, i, u));
   }

@@ -151,6 +151,7 @@ class OpenClBackend : public Backend {
                            score.floor_views * all, scores,
                            kernel.vectors(staged ? 3 * band_.num_views : 1));
     kernel.run(band_.width, rows.size());
+    device_.finish();  // so that the stage's seconds are its own
   }
 
   void score_support(int ref, RowRange rows, const StripMap<std::uint8_t>& todo,

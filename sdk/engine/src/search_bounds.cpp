@@ -13,8 +13,7 @@ struct Interval {
   bool known() const { return !std::isnan(low); }
   void join(Interval other) {
     if (!other.known()) return;
-    low = known() ? std::min(low, other.low) : other.low;
-    high = known() ? std::max(high, other.high) : other.high;
+    *this = known() ? Interval{std::min(low, other.low), std::max(high, other.high)} : other;
   }
 };
 

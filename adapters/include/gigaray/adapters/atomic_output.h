@@ -27,9 +27,9 @@ void write_file_atomically(const std::filesystem::path& path,
 class AtomicFolder {
  public:
   /// Creates TARGET.partial-<process id> beside `target`, and the folders above. A target that
-  /// exists is accepted when it is an empty folder, or when its gigaray.json has "format": `format`,
-  /// an earlier output of the same kind: commit() replaces it. Anything else is refused with
-  /// Error(kInvalidArgument); Error(kIo) when the place can't be written.
+  /// exists is accepted when it is an empty folder, or when its gigaray.json has "format":
+  /// `format`, an earlier output of the same kind: commit() replaces it. Anything else is refused
+  /// with Error(kInvalidArgument); Error(kIo) when the place can't be written.
   AtomicFolder(const std::filesystem::path& target, std::string format);
   ~AtomicFolder();
   AtomicFolder(const AtomicFolder&) = delete;

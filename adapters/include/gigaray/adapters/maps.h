@@ -10,9 +10,9 @@
 namespace gigaray {
 
 // Float maps in files: one value per pixel, rows from top to bottom in memory, NaN where there is
-// none. Every writer puts the whole file in place or nothing and throws Error(kIo) naming the place.
-// Every reader throws Error(kBadInput) naming the file when it is damaged, Error(kIo) when it can't
-// be opened.
+// none. Every writer puts the whole file in place or nothing and throws Error(kIo) naming the
+// place. Every reader throws Error(kBadInput) naming the file when it is damaged, Error(kIo) when
+// it can't be opened.
 
 /// By extension: .pfm, .npy or .exr.
 FloatMap read_float_map(const std::filesystem::path& path);

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Gigaray authors
+// gigaray.json, the program's own description of a light field; docs/formats.md.
+#include <nlohmann/json.hpp>
+#include <system_error>
+
+#include "gigaray/adapters/atomic_output.h"
+#include "gigaray/adapters/light_field_json.h"
+#include "picture_files.h"
+#include "readers.h"
+#include "text.h"
+
+namespace gigaray {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+constexpr int kVersion = 1;
+constexpr const char* kFileName = "gigaray.json";
+
+fs::path json_of(const fs::path& input) {
+  std::error_code ignored;
+  return fs::is_directory(input, ignored) ? input / kFileName : input;
+}
+
+std::optional<double> optional_number(const json& object, const char* key) {
+  const auto found = object.find(key);
+  if (found == object.end() || found->is_null()) return std::nullopt;
+  return found->get<double>();
+}
+
+void read_views(const json& root, const fs::path& folder, LightField& light_field) {
+  std::vector<fs::path> files;
+  for (const json& entry : root.at("views")) {
+    const View view{entry.at("name"), entry.at("s"), entry.at("t")};
+    // It becomes the name of an output folder.
+    if (view.name.empty() || view.name.find('/') != std::string::npos || view.name.starts_with('.'))
+      throw Error(ErrorCode::kBadInput, "'" + view.name + "' can't name a view");
+    light_field.views.push_back(view);
+    files.push_back(folder / entry.at("file").get<std::string>());
+  }
+  if (!files.empty()) attach_pictures(light_field, std::move(files));
+}
+
+LightField parse(const json& root, const fs::path& folder) {
+  const auto bad = [](const std::string& what) { return Error(ErrorCode::kBadInput, what); };
+  if (root.at("format") != kLightFieldFormat)
+    throw bad("describes a '" + root.at("format").get<std::string>() + "', not a light field");
+  if (root.at("version") != kVersion)
+    throw bad("has version " + root.at("version").dump() + "; this program reads version " +
+              std::to_string(kVersion));
+  LightField light_field;
+  read_views(root, folder, light_field);
+  light_field.kind = kind_from_positions(light_field.views);
+  if (root.at("kind") != to_string(light_field.kind))
+    throw bad("states the kind " + root.at("kind").dump() + ", its positions are " +
+              to_string(light_field.kind));
+  if (root.at("width") != light_field.width || root.at("height") != light_field.height)
+    throw bad("states another size than its pictures have");
+  if (const auto range = root.find("disparity_range"); range != root.end() && !range->is_null()) {
+    light_field.declared_range = DisparityRange{range->at(0), range->at(1)};
+    if (!(light_field.declared_range->min < light_field.declared_range->max))
+      throw bad("its disparity_range is empty");
+  }
+  if (const auto rig = root.find("rig"); rig != root.end()) {
+    light_field.rig.focal_px = optional_number(*rig, "focal_px");
+    light_field.rig.baseline = optional_number(*rig, "baseline");
+    light_field.rig.focus_distance = optional_number(*rig, "focus_distance");
+    light_field.rig.unit = rig->value("unit", "");
+  }
+  return light_field;
+}
+
+class GigarayJsonReader : public Reader {
+ public:
+  std::string name() const override { return kLightFieldFormat; }
+
+  ProbeResult probe(const fs::path& input) const override {
+    const fs::path path = json_of(input);
+    std::error_code ignored;
+    return {path.filename() == kFileName && fs::is_regular_file(path, ignored) ? 90 : 0, ""};
+  }
+
+  LightField open(const fs::path& input, const OpenOptions& options) const override {
+    if (options.direction != Travel::kAuto)
+      throw Error(ErrorCode::kInvalidArgument,
+                  "--direction: gigaray.json states its positions; leave the option out");
+    const fs::path path = json_of(input);
+    const auto bad = [&](const std::string& what) {
+      return Error(ErrorCode::kBadInput, path.string() + ": " + what);
+    };
+    const json root = json::parse(read_bytes(path), nullptr, false);
+    if (!root.is_object()) throw bad("is damaged or no JSON object");
+    try {
+      return parse(root, path.parent_path());
+    } catch (const json::exception& problem) {
+      throw bad(std::string("an entry is missing or of the wrong type (") + problem.what() + ")");
+    } catch (const Error& problem) {
+      throw Error(problem.code(), path.string() + ": " + problem.what());
+    }
+  }
+};
+
+}  // namespace
+
+void write_light_field_json(const fs::path& path, const LightField& light_field,
+                            const std::vector<std::string>& files) {
+  GIGARAY_CHECK(files.size() == light_field.views.size());
+  nlohmann::ordered_json root;
+  root["format"] = kLightFieldFormat;
+  root["version"] = kVersion;
+  root["kind"] = to_string(light_field.kind);
+  root["width"] = light_field.width;
+  root["height"] = light_field.height;
+  if (light_field.declared_range)
+    root["disparity_range"] = {light_field.declared_range->min, light_field.declared_range->max};
+  nlohmann::ordered_json rig = nlohmann::ordered_json::object();
+  if (light_field.rig.focal_px) rig["focal_px"] = *light_field.rig.focal_px;
+  if (light_field.rig.baseline) rig["baseline"] = *light_field.rig.baseline;
+  if (light_field.rig.focus_distance) rig["focus_distance"] = *light_field.rig.focus_distance;
+  if (!light_field.rig.unit.empty()) rig["unit"] = light_field.rig.unit;
+  root["rig"] = rig;
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    const View& view = light_field.views[i];
+    root["views"].push_back(
+        {{"name", view.name}, {"file", files[i]}, {"s", view.s}, {"t", view.t}});
+  }
+  using Handler = nlohmann::ordered_json::error_handler_t;
+  write_file_atomically(path, root.dump(2, ' ', false, Handler::replace) + "\n");
+}
+
+std::unique_ptr<const Reader> gigaray_json_reader() {
+  return std::make_unique<GigarayJsonReader>();
+}
+
+}  // namespace gigaray

@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Gigaray authors
+// A folder of numbered pictures, taken along a line at equal steps or at stated positions.
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <set>
+
+#include "camera_position.h"
+#include "picture_files.h"
+#include "positions_file.h"
+#include "readers.h"
+#include "text.h"
+
+namespace gigaray {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Numbered {
+  fs::path path;
+  std::string pattern;                 // the name with '#' for every number
+  std::vector<std::uint64_t> numbers;  // saturated
+};
+
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+Numbered numbered(const fs::path& path) {
+  Numbered result{path, "", {}};
+  const std::string name = path.stem().string();
+  for (std::size_t i = 0; i < name.size();) {
+    if (!is_digit(name[i])) {
+      result.pattern += name[i++];
+      continue;
+    }
+    std::uint64_t value = 0;
+    constexpr std::uint64_t kLimit = std::numeric_limits<std::uint64_t>::max() / 10 - 1;
+    for (; i < name.size() && is_digit(name[i]); ++i)
+      value = value > kLimit ? value : value * 10 + std::uint64_t(name[i] - '0');
+    result.pattern += '#';
+    result.numbers.push_back(value);
+  }
+  result.pattern += lower(path.extension().string());
+  return result;
+}
+
+std::vector<Numbered> in_order(const std::vector<fs::path>& pictures) {
+  std::vector<Numbered> all;
+  for (const fs::path& path : pictures) all.push_back(numbered(path));
+  std::sort(all.begin(), all.end(), [](const Numbered& a, const Numbered& b) {
+    return std::tie(a.pattern, a.numbers, a.path) < std::tie(b.pattern, b.numbers, b.path);
+  });
+  return all;
+}
+
+[[noreturn]] void bad(const fs::path& input, const std::string& what) {
+  throw Error(ErrorCode::kBadInput, input.string() + ": " + what);
+}
+
+struct Series {
+  std::vector<fs::path> files;
+  std::vector<std::uint64_t> numbers;  // rising
+  std::vector<std::string> notes;
+};
+
+// The largest group of pictures whose names differ in numbers only, and the one number that
+// changes.
+Series series_of(const fs::path& input, const std::vector<fs::path>& pictures) {
+  std::map<std::string, std::vector<Numbered>> groups;
+  for (Numbered& picture : in_order(pictures)) groups[picture.pattern].push_back(picture);
+  const auto smaller = [](const auto& a, const auto& b) {
+    return a.second.size() < b.second.size();
+  };
+  const auto largest = std::max_element(groups.begin(), groups.end(), smaller);
+  const std::vector<Numbered>& group = largest->second;
+  const std::string first = group.front().path.filename().string();
+  for (const auto& [pattern, other] : groups)
+    if (pattern != largest->first && 2 * other.size() > group.size())
+      bad(input, "holds more than one series of pictures, " + first + " … and " +
+                     other.front().path.filename().string() + " …; keep one per folder");
+  if (group.front().numbers.empty())
+    bad(input, "the pictures have no numbers in their names; state their places with --positions");
+
+  std::set<std::size_t> changing;
+  for (const Numbered& picture : group)
+    for (std::size_t i = 0; i < picture.numbers.size(); ++i)
+      if (picture.numbers[i] != group.front().numbers[i]) changing.insert(i);
+  if (changing.size() > 1)
+    bad(input, "more than one number changes in the names (" + first + " … " +
+                   group.back().path.filename().string() +
+                   "); state the places of the views with --positions");
+  const std::size_t which = changing.empty() ? 0 : *changing.begin();
+
+  Series series;
+  for (const Numbered& picture : group) {
+    if (!series.numbers.empty() && series.numbers.back() == picture.numbers[which])
+      bad(input, series.files.back().filename().string() + " and " +
+                     picture.path.filename().string() + " have the same number");
+    series.files.push_back(picture.path);
+    series.numbers.push_back(picture.numbers[which]);
+  }
+  if (group.size() < pictures.size())
+    series.notes.push_back(std::to_string(pictures.size() - group.size()) +
+                           " other pictures in the folder are left out");
+  return series;
+}
+
+// Steps from the first view. Numbers with gaps, like those left when bad pictures are deleted,
+// place the views; numbers without a common step, like times, don't.
+std::vector<double> steps_from_numbers(const std::vector<std::uint64_t>& numbers,
+                                       std::vector<std::string>& notes) {
+  std::vector<std::uint64_t> gaps;
+  for (std::size_t i = 1; i < numbers.size(); ++i) gaps.push_back(numbers[i] - numbers[i - 1]);
+  std::vector<std::uint64_t> sorted = gaps;
+  std::sort(sorted.begin(), sorted.end());
+  const std::uint64_t step = sorted.front(), median = sorted[sorted.size() / 2];
+  const bool multiples =
+      std::all_of(gaps.begin(), gaps.end(), [&](std::uint64_t gap) { return gap % step == 0; });
+  const bool by_number = median == step && multiples;
+
+  std::vector<double> steps{0};
+  for (const std::uint64_t gap : gaps)
+    steps.push_back(steps.back() + (by_number ? double(gap / step) : 1));
+  if (!by_number)
+    notes.push_back(
+        "the numbers of the pictures are irregular: equal steps are assumed, state the "
+        "places with --positions if they are not");
+  else if (sorted.back() != step)
+    notes.push_back("numbers are missing in the sequence: the views are placed by their numbers");
+  return steps;
+}
+
+class ImageSequenceReader : public Reader {
+ public:
+  std::string name() const override { return "image sequence"; }
+
+  ProbeResult probe(const fs::path& input) const override {
+    std::error_code ignored;
+    if (!fs::is_directory(input, ignored))
+      return {0, is_picture_name(input) ? "is one picture; name the folder of the light field"
+                                        : "is no light field that this program knows"};
+    if (pictures_of(input).empty())
+      return {0, "no pictures in this folder (folders inside it are not searched)"};
+    return {10, ""};
+  }
+
+  LightField open(const fs::path& input, const OpenOptions& options) const override {
+    const std::vector<fs::path> pictures = pictures_of(input);
+    if (pictures.size() < 2)
+      bad(input, "only one picture, " + pictures.front().filename().string() +
+                     "; a light field needs two or more");
+    return options.positions.empty() ? open_numbered(input, pictures, options.direction)
+                                     : open_placed(pictures, options);
+  }
+
+ private:
+  static LightField open_numbered(const fs::path& input, const std::vector<fs::path>& pictures,
+                                  Travel direction) {
+    Series series = series_of(input, pictures);
+    if (series.files.size() < 2) bad(input, "only one numbered picture; a light field needs two");
+    const std::vector<double> steps = steps_from_numbers(series.numbers, series.notes);
+
+    LightField light_field;
+    light_field.notes = std::move(series.notes);
+    const double middle = steps.back() / 2;
+    const double towards = direction == Travel::kLeft ? -1 : 1;
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+      View view;
+      view.name = series.files[i].stem().string();
+      place_camera(view, towards * (steps[i] - middle), 0);
+      light_field.views.push_back(view);
+    }
+    light_field.kind = LightFieldKind::k3D;
+    if (direction == Travel::kAuto) {
+      light_field.sign_is_assumed = true;
+      light_field.notes.push_back("the camera is assumed to move to the right as the numbers rise");
+    }
+    attach_pictures(light_field, std::move(series.files));
+    return light_field;
+  }
+
+  static LightField open_placed(const std::vector<fs::path>& pictures, const OpenOptions& options) {
+    if (options.direction != Travel::kAuto)
+      throw Error(ErrorCode::kInvalidArgument,
+                  "--direction: --positions states where the cameras stand; leave one of them out");
+    std::vector<fs::path> files;
+    for (const Numbered& picture : in_order(pictures)) files.push_back(picture.path);
+    const std::vector<CameraPosition> positions = read_positions(options.positions, files);
+    LightField light_field;
+    for (std::size_t i = 0; i < files.size(); ++i) {
+      View view;
+      view.name = files[i].stem().string();
+      place_camera(view, positions[i].right, positions[i].down);
+      light_field.views.push_back(view);
+    }
+    try {
+      light_field.rig.baseline = normalise_positions(light_field.views);
+    } catch (const Error& problem) {
+      throw Error(problem.code(), options.positions.string() + ": " + problem.what());
+    }
+    light_field.kind = kind_from_positions(light_field.views);
+    attach_pictures(light_field, std::move(files));
+    return light_field;
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<const Reader> image_sequence_reader() {
+  return std::make_unique<ImageSequenceReader>();
+}
+
+}  // namespace gigaray

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Gigaray authors
+#include "positions_file.h"
+
+#include <cmath>
+#include <map>
+#include <optional>
+#include <sstream>
+#include <string>
+
+#include "gigaray/error.h"
+#include "text.h"
+
+namespace gigaray {
+namespace {
+
+struct Line {
+  int number = 0;  // in the file, from 1
+  std::string name;
+  CameraPosition position;
+};
+
+class Parser {
+ public:
+  explicit Parser(const std::filesystem::path& path) : path_(path) {}
+
+  std::vector<Line> lines() const {
+    std::vector<Line> lines;
+    std::istringstream stream(read_bytes(path_));
+    std::string text;
+    for (int number = 1; std::getline(stream, text); ++number) {
+      const auto words = split_words(text.substr(0, text.find('#')));
+      if (!words.empty()) lines.push_back(parse(number, words));
+    }
+    return lines;
+  }
+
+  [[noreturn]] void bad(int line, const std::string& what) const {
+    throw Error(ErrorCode::kBadInput, path_.string() + ":" + std::to_string(line) + ": " + what);
+  }
+  [[noreturn]] void bad(const std::string& what) const {
+    throw Error(ErrorCode::kBadInput, path_.string() + ": " + what);
+  }
+
+ private:
+  Line parse(int number, const std::vector<std::string>& words) const {
+    Line line;
+    line.number = number;
+    const bool named = words.size() == 3 || (words.size() == 2 && !parse_number(words[0]));
+    if (named) line.name = words[0];
+    const std::size_t first = named ? 1 : 0;
+    if (words.size() > 3) bad(number, "more than a name and two numbers");
+    line.position.right = coordinate(number, words[first]);
+    if (words.size() > first + 1) line.position.down = coordinate(number, words[first + 1]);
+    return line;
+  }
+
+  double coordinate(int number, const std::string& word) const {
+    const auto value = parse_number(word);
+    if (!value || !std::isfinite(*value)) bad(number, "'" + word + "' is not a finite number");
+    return *value;
+  }
+
+  const std::filesystem::path& path_;
+};
+
+std::string count_text(std::size_t lines, std::size_t pictures) {
+  return std::to_string(lines) + " positions for " + std::to_string(pictures) + " pictures";
+}
+
+}  // namespace
+
+std::vector<CameraPosition> read_positions(const std::filesystem::path& path,
+                                           const std::vector<std::filesystem::path>& pictures) {
+  const Parser parser(path);
+  const std::vector<Line> lines = parser.lines();
+  if (lines.size() != pictures.size()) parser.bad(count_text(lines.size(), pictures.size()));
+
+  std::map<std::string, std::size_t> index_of;
+  for (std::size_t i = 0; i < pictures.size(); ++i) {
+    index_of[pictures[i].stem().string()] = i;
+    index_of[pictures[i].filename().string()] = i;
+  }
+  std::vector<std::optional<CameraPosition>> found(pictures.size());
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    const Line& line = lines[i];
+    if (line.name.empty() != lines.front().name.empty())
+      parser.bad(line.number, "either every line has a name or none");
+    std::size_t picture = i;
+    if (!line.name.empty()) {
+      const auto match = index_of.find(line.name);
+      if (match == index_of.end()) parser.bad(line.number, "no picture is named " + line.name);
+      picture = match->second;
+    }
+    if (found[picture]) parser.bad(line.number, line.name + " has two positions");
+    found[picture] = line.position;
+  }
+  std::vector<CameraPosition> positions;
+  for (const auto& position : found) positions.push_back(position.value());
+  return positions;
+}
+
+}  // namespace gigaray

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Gigaray authors
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "command.h"
+#include "input_options.h"
+
+namespace gigaray::cli {
+namespace {
+
+constexpr int kMaxDrawn = 64;  // views per axis of the drawn grid
+
+using nlohmann::ordered_json;
+
+struct InfoOptions {
+  InputOptions input;
+  bool json = false;
+};
+
+struct Bounds {
+  double min, max;
+};
+
+template <class Coordinate>
+Bounds bounds(const std::vector<View>& views, Coordinate coordinate) {
+  const auto [low, high] = std::minmax_element(
+      views.begin(), views.end(),
+      [&](const View& a, const View& b) { return coordinate(a) < coordinate(b); });
+  return {coordinate(*low), coordinate(*high)};
+}
+
+// The camera plane seen from behind the cameras, one letter per view step; empty when the views are
+// too many or too irregular for it. A camera further right or down has smaller s or t (see View).
+std::vector<std::string> drawn_grid(const LightField& light_field) {
+  const Bounds s = bounds(light_field.views, [](const View& view) { return view.s; });
+  const Bounds t = bounds(light_field.views, [](const View& view) { return view.t; });
+  const long columns = std::lround(s.max - s.min) + 1, rows = std::lround(t.max - t.min) + 1;
+  if (columns > kMaxDrawn || rows > kMaxDrawn) return {};
+  std::vector<std::string> grid(rows, std::string(2 * columns - 1, ' '));
+  for (long row = 0; row < rows; ++row)
+    for (long column = 0; column < columns; ++column) grid[row][2 * column] = '.';
+  const int centre = centre_view(light_field);
+  for (int i = 0; i < light_field.num_views(); ++i) {
+    const View& view = light_field.views[i];
+    char& cell = grid[std::lround(t.max - view.t)][2 * std::lround(s.max - view.s)];
+    if (cell != '.') return {};
+    cell = i == centre ? 'O' : 'x';
+  }
+  return grid;
+}
+
+std::string rig_text(const RigGeometry& rig) {
+  std::vector<std::string> parts;
+  const std::string unit = rig.unit.empty() ? "(unknown unit)" : rig.unit;
+  if (rig.focal_px) parts.push_back(fmt::format("focal length {:.6g} px", *rig.focal_px));
+  if (rig.baseline) parts.push_back(fmt::format("view step {:.6g} {}", *rig.baseline, unit));
+  if (rig.focus_distance)
+    parts.push_back(fmt::format("focus at {:.6g} {}", *rig.focus_distance, unit));
+  return parts.empty() ? "unknown" : fmt::format("{}", fmt::join(parts, ", "));
+}
+
+void print_text(const LightField& light_field) {
+  const auto line = [](const char* label, const std::string& text) {
+    fmt::print("{:<11}{}\n", label, text);
+  };
+  const std::vector<View>& views = light_field.views;
+  line("format", fmt::format("{}, {}", light_field.format, to_string(light_field.kind)));
+  line("views", fmt::format("{}, {} … {}", views.size(), views.front().name, views.back().name));
+  line("size", fmt::format("{} × {} px, {} bit", light_field.width, light_field.height,
+                           light_field.pixels->bit_depth()));
+  const Bounds s = bounds(views, [](const View& view) { return view.s; });
+  const Bounds t = bounds(views, [](const View& view) { return view.t; });
+  line("positions", light_field.kind == LightFieldKind::k3D
+                        ? fmt::format("s {:.4g} … {:.4g} view steps", s.min, s.max)
+                        : fmt::format("s {:.4g} … {:.4g}, t {:.4g} … {:.4g} view steps", s.min,
+                                      s.max, t.min, t.max));
+  if (light_field.kind == LightFieldKind::k4D)
+    for (const std::string& row : drawn_grid(light_field)) line("", row);
+  line("centre", views[centre_view(light_field)].name);
+  line("rig", rig_text(light_field.rig));
+  line("disparity",
+       light_field.declared_range
+           ? fmt::format("{:.4g} … {:.4g} px per view step, declared",
+                         light_field.declared_range->min, light_field.declared_range->max)
+           : "range not declared");
+  for (const std::string& note : light_field.notes) line("note", note);
+}
+
+void print_json(const LightField& light_field) {
+  const auto number = [](const std::optional<double>& value) {
+    return value ? ordered_json(*value) : ordered_json(nullptr);
+  };
+  ordered_json root;
+  root["format"] = light_field.format;
+  root["kind"] = to_string(light_field.kind);
+  root["width"] = light_field.width;
+  root["height"] = light_field.height;
+  root["bit_depth"] = light_field.pixels->bit_depth();
+  root["centre"] = light_field.views[centre_view(light_field)].name;
+  root["sign_is_assumed"] = light_field.sign_is_assumed;
+  root["disparity_range"] = nullptr;
+  if (const auto& range = light_field.declared_range)
+    root["disparity_range"] = {range->min, range->max};
+  const RigGeometry& rig = light_field.rig;
+  root["rig"] = {{"focal_px", number(rig.focal_px)},
+                 {"baseline", number(rig.baseline)},
+                 {"focus_distance", number(rig.focus_distance)},
+                 {"unit", rig.unit}};
+  root["notes"] = light_field.notes;
+  root["views"] = ordered_json::array();
+  for (const View& view : light_field.views)
+    root["views"].push_back({{"name", view.name}, {"s", view.s}, {"t", view.t}});
+  fmt::print("{}\n", root.dump(2, ' ', false, ordered_json::error_handler_t::replace));
+}
+
+}  // namespace
+
+Run info_command(CLI::App& app) {
+  app.description("What an input is: kind, views, size, positions, rig, disparity range");
+  auto options = std::make_shared<InfoOptions>();
+  options->input.add_to(app);
+  app.add_flag("--json", options->json, "Print JSON");
+  return [options](const RunControl&) {
+    const LightField light_field = options->input.open_light_field();
+    if (options->json)
+      print_json(light_field);
+    else
+      print_text(light_field);
+  };
+}
+
+}  // namespace gigaray::cli
