@@ -38,7 +38,7 @@ Bounds bounds(const std::vector<View>& views, Coordinate coordinate) {
 }
 
 // The camera plane seen from behind the cameras, one letter per view step; empty when the views are
-// too many or too irregular for it. A camera further right or down has smaller s or t (see View).
+// too many or too irregular for it.
 std::vector<std::string> drawn_grid(const LightField& light_field) {
   const Bounds s = bounds(light_field.views, [](const View& view) { return view.s; });
   const Bounds t = bounds(light_field.views, [](const View& view) { return view.t; });
@@ -50,7 +50,7 @@ std::vector<std::string> drawn_grid(const LightField& light_field) {
   const int centre = centre_view(light_field);
   for (int i = 0; i < light_field.num_views(); ++i) {
     const View& view = light_field.views[i];
-    char& cell = grid[std::lround(t.max - view.t)][2 * std::lround(s.max - view.s)];
+    char& cell = grid[std::lround(view.t - t.min)][2 * std::lround(view.s - s.min)];
     if (cell != '.') return {};
     cell = i == centre ? 'O' : 'x';
   }

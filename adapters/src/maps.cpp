@@ -6,8 +6,7 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
-#include "gigaray/adapters/atomic_output.h"
-#include "png_bytes.h"
+#include "gigaray/adapters/pictures.h"
 #include "text.h"
 
 namespace gigaray {
@@ -36,32 +35,31 @@ Png16Scale write_png16(const std::filesystem::path& path, const FloatMap& map,
   check_range(map, range);
   const Png16Scale scale{range.min - (range.max - range.min) / kSamples,
                          (range.max - range.min) / kSamples};
-  cv::Mat samples(map.height(), map.width(), CV_16U);
-  for (int v = 0; v < map.height(); ++v)
-    for (int u = 0; u < map.width(); ++u) {
-      const double value = (map(u, v) - range.min) / scale.scale;
-      samples.at<std::uint16_t>(v, u) =
-          std::isnan(value) ? 0 : std::uint16_t(1 + std::lround(std::clamp(value, 0.0, kSamples)));
-    }
-  write_file_atomically(path, png_bytes(samples));
+  Image<std::uint16_t> samples(map.width(), map.height());
+  std::transform(map.begin(), map.end(), samples.begin(), [&](float value) {
+    const double steps = (value - range.min) / scale.scale;
+    return std::isnan(steps) ? 0 : std::uint16_t(1 + std::lround(std::clamp(steps, 0.0, kSamples)));
+  });
+  write_png(path, samples, 16);
   return scale;
 }
 
 void write_depth_picture(const std::filesystem::path& path, const FloatMap& map,
                          DisparityRange range) {
   check_range(map, range);
-  cv::Mat grey(map.height(), map.width(), CV_8U), nothing(map.height(), map.width(), CV_8U);
+  cv::Mat levels(map.height(), map.width(), CV_8U);
+  std::transform(map.begin(), map.end(), levels.begin<std::uint8_t>(), [&](float value) {
+    const double share = (value - range.min) / (range.max - range.min);
+    return std::isnan(share) ? 0 : std::uint8_t(std::lround(255 * std::clamp(share, 0.0, 1.0)));
+  });
+  cv::Mat bgr;
+  cv::applyColorMap(levels, bgr, cv::COLORMAP_TURBO);
+  Image<std::uint16_t> picture(map.width(), map.height(), 3);
   for (int v = 0; v < map.height(); ++v)
-    for (int u = 0; u < map.width(); ++u) {
-      const double share = (map(u, v) - range.min) / (range.max - range.min);
-      nothing.at<std::uint8_t>(v, u) = std::isnan(share) ? 255 : 0;
-      grey.at<std::uint8_t>(v, u) =
-          std::isnan(share) ? 0 : std::uint8_t(std::lround(255 * std::clamp(share, 0.0, 1.0)));
-    }
-  cv::Mat picture;
-  cv::applyColorMap(grey, picture, cv::COLORMAP_TURBO);
-  picture.setTo(cv::Scalar::all(0), nothing);
-  write_file_atomically(path, png_bytes(picture));
+    for (int u = 0; u < map.width(); ++u)
+      for (int c = 0; c < 3; ++c)
+        picture(u, v, c) = std::isnan(map(u, v)) ? 0 : bgr.at<cv::Vec3b>(v, u)[2 - c];
+  write_png(path, picture, 8);
 }
 
 }  // namespace gigaray

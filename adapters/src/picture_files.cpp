@@ -1,19 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Gigaray authors
-// Pictures of any format that OpenImageIO reads. It reports a file that was cut short as an error,
-// which decoders built on libjpeg's defaults fill with grey.
+// Pictures of any format that libvips reads. It reports a file that was cut short or damaged as an
+// error, which decoders built on the defaults of libjpeg fill with grey, and gives sizes without
+// decoding.
 #include "picture_files.h"
-
-#include <OpenImageIO/imageio.h>
 
 #include <algorithm>
 #include <array>
-#include <limits>
-#include <opencv2/core.hpp>
 #include <system_error>
 
 #include "gigaray/adapters/pictures.h"
 #include "text.h"
+#include "vips.h"
 
 namespace gigaray {
 namespace {
@@ -23,87 +21,63 @@ namespace fs = std::filesystem;
 struct PictureSpec {
   int width = 0;  // as seen, after the orientation is applied
   int height = 0;
-  int channels = 0;
+  bool is_grey = false;
   bool has_alpha = false;
   int bit_depth = 8;
-  int orientation = 1;  // EXIF 1 … 8
 };
 
 [[noreturn]] void bad(const fs::path& path, const std::string& what) {
   throw Error(ErrorCode::kBadInput, path.string() + ": " + what);
 }
 
-// First line of what a decoder says, without the path that it may repeat.
-std::string reason(std::string text) {
-  text = text.substr(0, text.find('\n'));
-  return text.empty() ? "unknown reason" : text;
+vips::VImage open_picture(const fs::path& path) {
+  return vips::VImage::new_from_file(path.c_str(), vips::VImage::option()
+                                                       ->set("access", VIPS_ACCESS_SEQUENTIAL)
+                                                       ->set("fail_on", VIPS_FAIL_ON_WARNING));
 }
 
-std::unique_ptr<OIIO::ImageInput> open_picture(const fs::path& path, PictureSpec& spec) {
-  OIIO::ImageSpec config;
-  config["oiio:UnassociatedAlpha"] = 1;  // colours as stored, not multiplied by alpha
-  auto input = OIIO::ImageInput::open(path.string(), &config);
-  if (!input) bad(path, "is damaged or no picture (" + reason(OIIO::geterror()) + ")");
-
-  const OIIO::ImageSpec& header = input->spec();
-  if (header.format.is_floating_point())
-    bad(path, "has floating-point pixels; light fields are read from 8 or 16 bit pictures");
-  spec.orientation = std::clamp(header.get_int_attribute("Orientation", 1), 1, 8);
-  spec.width = header.width;
-  spec.height = header.height;
-  if (spec.orientation >= 5) std::swap(spec.width, spec.height);
-  spec.channels = header.nchannels;
-  spec.has_alpha = header.alpha_channel >= 0 || spec.channels == 2 || spec.channels == 4;
-  spec.bit_depth = header.format.size() == 1 ? 8 : 16;
-  return input;
+PictureSpec spec_of(const vips::VImage& image, const fs::path& path) {
+  if (image.format() != VIPS_FORMAT_UCHAR && image.format() != VIPS_FORMAT_USHORT)
+    bad(path, "has pixels of another type than 8 or 16 bit");
+  PictureSpec spec;
+  spec.width = image.width();
+  spec.height = image.height();
+  if (vips_image_get_orientation_swap(image.get_image())) std::swap(spec.width, spec.height);
+  spec.has_alpha = image.has_alpha();
+  spec.is_grey = image.bands() < 3;
+  spec.bit_depth = image.format() == VIPS_FORMAT_UCHAR ? 8 : 16;
+  return spec;
 }
 
-// EXIF: rows and columns of the stored picture in the picture as seen.
-cv::Mat oriented(const cv::Mat& stored, int orientation) {
-  struct Step {
-    bool transpose, mirror_u, mirror_v;
-  };
-  static constexpr std::array<Step, 9> kSteps{{{},
-                                               {false, false, false},
-                                               {false, true, false},
-                                               {false, true, true},
-                                               {false, false, true},
-                                               {true, false, false},
-                                               {true, true, false},
-                                               {true, true, true},
-                                               {true, false, true}}};
-  const Step step = kSteps[orientation];
-  cv::Mat seen = stored;
-  if (step.transpose) cv::transpose(seen, seen);
-  if (step.mirror_u && step.mirror_v)
-    cv::flip(seen, seen, -1);
-  else if (step.mirror_u || step.mirror_v)
-    cv::flip(seen, seen, step.mirror_u ? 1 : 0);
-  return seen;
+PictureSpec read_spec(const fs::path& path) {
+  use_vips();
+  try {
+    return spec_of(open_picture(path), path);
+  } catch (const vips::VError& error) {
+    bad(path, "is damaged or no picture (" + vips_reason(error) + ")");
+  }
 }
 
 Image<std::uint16_t> decode(const fs::path& path, PictureSpec& spec) {
-  const auto input = open_picture(path, spec);
-  const int width = input->spec().width, height = input->spec().height;
-  const bool grey = spec.channels < 3;
-  const int stored_channels = grey ? 1 : 3;
-  cv::Mat stored(height, width, CV_MAKETYPE(spec.bit_depth == 8 ? CV_8U : CV_16U, stored_channels));
-  // 8-bit values stay 0 … 255: read in the file's own type, then widened by OpenCV.
-  const auto type = spec.bit_depth == 8 ? OIIO::TypeDesc::UINT8 : OIIO::TypeDesc::UINT16;
-  if (!input->read_image(0, 0, 0, stored_channels, type, stored.data))
-    bad(path, "is damaged or cut short (" + reason(input->geterror()) + ")");
+  use_vips();
+  try {
+    vips::VImage image = open_picture(path);
+    spec = spec_of(image, path);
+    if (image.interpretation() == VIPS_INTERPRETATION_CMYK)
+      image = image.colourspace(VIPS_INTERPRETATION_sRGB);
+    image = image.extract_band(0, vips::VImage::option()->set("n", spec.is_grey ? 1 : 3));
+    // Turning reads rows in another order than the file has them: decode first.
+    image = image.cast(VIPS_FORMAT_USHORT).copy_memory().autorot();
+    if (spec.is_grey) image = image.bandjoin({image, image});
 
-  const cv::Mat seen = oriented(stored, spec.orientation);
-  Image<std::uint16_t> picture(seen.cols, seen.rows, 3);
-  cv::Mat target(seen.rows, seen.cols, CV_16UC3, picture.data());
-  if (grey) {
-    cv::Mat wide;
-    seen.convertTo(wide, CV_16U);
-    cv::merge(std::array{wide, wide, wide}, target);
-  } else {
-    seen.convertTo(target, CV_16U);
+    Image<std::uint16_t> picture(image.width(), image.height(), 3);
+    image.write(vips::VImage::new_from_memory(picture.data(), picture.size() * sizeof(std::uint16_t),
+                                              picture.width(), picture.height(), 3,
+                                              VIPS_FORMAT_USHORT));
+    return picture;
+  } catch (const vips::VError& error) {
+    bad(path, "is damaged or cut short (" + vips_reason(error) + ")");
   }
-  return picture;
 }
 
 class PictureFiles : public PixelSource {
@@ -171,8 +145,7 @@ void attach_pictures(LightField& light_field, std::vector<fs::path> files) {
   int bit_depth = 8;
   bool alpha = false, grey = false, mixed_depth = false;
   for (const fs::path& path : files) {
-    PictureSpec spec;
-    open_picture(path, spec);
+    const PictureSpec spec = read_spec(path);
     if (&path == &files.front()) first = spec;
     if (spec.width != first.width || spec.height != first.height)
       bad(path, "has " + size_text(spec.width, spec.height) + " pixels, " +
@@ -181,7 +154,7 @@ void attach_pictures(LightField& light_field, std::vector<fs::path> files) {
     bit_depth = std::max(bit_depth, spec.bit_depth);
     mixed_depth |= spec.bit_depth != first.bit_depth;
     alpha |= spec.has_alpha;
-    grey |= spec.channels < 3;
+    grey |= spec.is_grey;
   }
   if (alpha) light_field.notes.push_back("the alpha channel of the pictures is ignored");
   if (grey) light_field.notes.push_back("grey pictures are read as colour with equal channels");

@@ -3,7 +3,7 @@
 // 3D: the ray of (u, v) in view `ref` is at (u + (s_ref - s) h, v) in view `other` (eq. 3).
 // views: s of every view times 2^-level. Twin of EpiSampler.
 
-inline int locate(__global const float* views, int ref, int other, float u, float v, float h,
+static inline int locate(__global const float* views, int ref, int other, float u, float v, float h,
                   float* u_other, float* v_other, float* h_other) {
   *u_other = u + (views[ref] - views[other]) * h;
   *v_other = v;
@@ -13,7 +13,7 @@ inline int locate(__global const float* views, int ref, int other, float u, floa
 
 // What view `other` sees of LANES neighbouring pixels (u .. u + LANES - 1, v) of `ref`, all under
 // hypothesis h. Returns 0 when it sees none of them.
-inline int sample_lanes(__global const float* band, const BandParams p,
+static inline int sample_lanes(__global const float* band, const BandParams p,
                         __global const float* views, int ref, int other, int u, int v, float h,
                         vfloat* colour, vfloat* inside) {
   const float shift = (views[ref] - views[other]) * h;

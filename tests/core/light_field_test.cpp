@@ -75,8 +75,9 @@ TEST(LightField, ViewsAreOrderedFromTheCentre) {
 }
 
 TEST(LightField, AnEvenRowBeginsWithTheSmallerPosition) {
-  EXPECT_EQ(views_from_centre(field_of({{"a", -1.5, 0}, {"b", -0.5, 0}, {"c", 0.5, 0}, {"d", 1.5, 0}})),
-            (std::vector<int>{1, 2, 0, 3}));
+  EXPECT_EQ(
+      views_from_centre(field_of({{"a", -1.5, 0}, {"b", -0.5, 0}, {"c", 0.5, 0}, {"d", 1.5, 0}})),
+      (std::vector<int>{1, 2, 0, 3}));
 }
 
 TEST(LightField, KindFollowsFromThePositions) {

@@ -59,9 +59,9 @@ DisparityScores score_disparity(const FloatMap& estimate, const FloatMap& truth,
     }
   }
   if (scored == 0)
-    throw Error(ErrorCode::kBadInput,
-                "nothing to score: no pixel of the " + size_of(truth) + " truth is finite and " +
-                    "inside the border of " + std::to_string(border) + " px");
+    throw Error(ErrorCode::kBadInput, "nothing to score: no pixel of the " + size_of(truth) +
+                                          " truth is finite and " + "inside the border of " +
+                                          std::to_string(border) + " px");
 
   const long unfilled = scored - long(errors.size());
   const auto percent = [&](long count) { return 100.0 * double(count) / double(scored); };

@@ -121,7 +121,7 @@ std::vector<View> make_views(const SyntheticOptions& options) {
         std::snprintf(name, sizeof name, "view_%03d", s);
       else
         std::snprintf(name, sizeof name, "view_%02d_%02d", t, s);
-      views.push_back({name, s - (options.views_s - 1) / 2.0, t - (options.views_t - 1) / 2.0});
+      views.push_back({name, (options.views_s - 1) / 2.0 - s, (options.views_t - 1) / 2.0 - t});
     }
   }
   return views;
@@ -142,11 +142,12 @@ void SyntheticOptions::check() const {
   const double num_views = double(views_s) * views_t;
   require(num_views >= 2 && num_views <= kMaxViews, "views_s * views_t", to_text(num_views),
           "from 2 to " + to_text(kMaxViews));
-  require(std::isfinite(disparity.min) && std::isfinite(disparity.max) &&
-              disparity.min < disparity.max,
-          "disparity", to_text(disparity.min) + " " + to_text(disparity.max),
-          "two finite numbers, the smaller one first");
-  // A surface point that crosses the picture in less than one view step is seen once: no light field.
+  require(
+      std::isfinite(disparity.min) && std::isfinite(disparity.max) && disparity.min < disparity.max,
+      "disparity", to_text(disparity.min) + " " + to_text(disparity.max),
+      "two finite numbers, the smaller one first");
+  // A surface point that crosses the picture in less than one view step is seen once: no light
+  // field.
   const double widest = std::max(width, height);
   require(std::max(std::abs(disparity.min), std::abs(disparity.max)) <= widest, "disparity",
           to_text(disparity.min) + " " + to_text(disparity.max),

@@ -38,8 +38,8 @@ int SceneBuilder::material(Pattern pattern, Colour dark, Colour mid, Colour ligh
   return int(scene_.materials.size()) - 1;
 }
 
-/// With nearness n(x, y) = nearness + per_x (x - at.x) + per_y (y - at.y) in the centre view, 1 / Z is
-/// affine in (X / Z, Y / Z), so the surface is a plane.
+/// With nearness n(x, y) = nearness + per_x (x - at.x) + per_y (y - at.y) in the centre view, 1 / Z
+/// is affine in (X / Z, Y / Z), so the surface is a plane.
 Primitive SceneBuilder::plane_through(double nearness, double per_x, double per_y, Place at) const {
   const Rig& rig = scene_.rig;
   const double k = 1 - 1 / rig.far_z;

@@ -8,14 +8,15 @@
 
 namespace gigaray::synthetic {
 
-/// A place in the centre view: x, y in fractions of width and height from the middle of the picture,
-/// nearness 0 … 1 over the disparity range.
+/// A place in the centre view: x, y in fractions of width and height from the middle of the
+/// picture, nearness 0 … 1 over the disparity range.
 struct Place {
   double x = 0, y = 0, nearness = 0;
 };
 
-/// Puts surfaces into a scene, placed by what the centre view sees, so that a scene fits any size and
-/// any disparity range. Sizes are fractions of the shorter side of the picture as seen at that place.
+/// Puts surfaces into a scene, placed by what the centre view sees, so that a scene fits any size
+/// and any disparity range. Sizes are fractions of the shorter side of the picture as seen at that
+/// place.
 class SceneBuilder {
  public:
   explicit SceneBuilder(const SyntheticOptions& options);
@@ -33,8 +34,8 @@ class SceneBuilder {
   /// The wall at the far end of the range; every scene needs it, nothing can be seen behind it.
   void backdrop(int material);
   /// An infinite slanted plane: nearness changes linearly from place a to place b and is constant
-  /// across that direction. It ends where it meets the far and the near end of the range; beyond the
-  /// near end a wall stands in its place.
+  /// across that direction. It ends where it meets the far and the near end of the range; beyond
+  /// the near end a wall stands in its place.
   void slope(Place a, Place b, int material);
   /// What the centre view sees inside the rectangle of half size (half_x, half_y) around the place:
   /// a plane whose nearness changes by slope_x and slope_y from the middle to the rim.

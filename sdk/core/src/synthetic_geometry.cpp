@@ -91,8 +91,8 @@ double intersect(const Primitive& primitive, const Rig& rig, Vec3d origin, Vec3d
   switch (primitive.kind) {
     case Primitive::Kind::kCard:
     case Primitive::Kind::kDisc: {
-      const double z = (primitive.plane_k - dot(primitive.normal, origin)) /
-                       dot(primitive.normal, direction);
+      const double z =
+          (primitive.plane_k - dot(primitive.normal, origin)) / dot(primitive.normal, direction);
       if (!(z > 0) || z == kNoHit) return kNoHit;
       const Vec3d p = origin + z * direction;
       return card_covers(primitive, rig.focal * p.x / z, rig.focal * p.y / z) ? z : kNoHit;

@@ -38,8 +38,8 @@ Cell cell_of(float x, float period) {
 }
 
 float cell_tone(int i, int j, std::uint32_t seed) {
-  return float(uniform(hash(seed, std::uint64_t(std::int64_t(i)), std::uint64_t(std::int64_t(j))),
-                       -1, 1));
+  return float(
+      uniform(hash(seed, std::uint64_t(std::int64_t(i)), std::uint64_t(std::int64_t(j))), -1, 1));
 }
 
 /// Bricks (or planks, when a row is one endless board): tone per piece, grain, dark joints.

@@ -36,13 +36,12 @@ constexpr std::array<std::uint8_t, 512> make_shuffle() {
 constexpr std::array<std::uint8_t, 512> kShuffle = make_shuffle();
 
 /// Middles of the twelve edges of a cube, four of them twice to make sixteen (Perlin 2002).
-constexpr Vec3f kGradients[16] = {{1, 1, 0},  {-1, 1, 0}, {1, -1, 0},  {-1, -1, 0},
-                                  {1, 0, 1},  {-1, 0, 1}, {1, 0, -1},  {-1, 0, -1},
-                                  {0, 1, 1},  {0, -1, 1}, {0, 1, -1},  {0, -1, -1},
-                                  {1, 1, 0},  {-1, 1, 0}, {0, -1, 1},  {0, -1, -1}};
+constexpr Vec3f kGradients[16] = {
+    {1, 1, 0}, {-1, 1, 0}, {1, -1, 0}, {-1, -1, 0}, {1, 0, 1}, {-1, 0, 1}, {1, 0, -1}, {-1, 0, -1},
+    {0, 1, 1}, {0, -1, 1}, {0, 1, -1}, {0, -1, -1}, {1, 1, 0}, {-1, 1, 0}, {0, -1, 1}, {0, -1, -1}};
 
-constexpr Vec3f kPlanarGradients[8] = {{1, 0, 0},        {-1, 0, 0},       {0, 1, 0},
-                                       {0, -1, 0},       {0.71f, 0.71f, 0}, {-0.71f, 0.71f, 0},
+constexpr Vec3f kPlanarGradients[8] = {{1, 0, 0},          {-1, 0, 0},         {0, 1, 0},
+                                       {0, -1, 0},         {0.71f, 0.71f, 0},  {-0.71f, 0.71f, 0},
                                        {0.71f, -0.71f, 0}, {-0.71f, -0.71f, 0}};
 
 float fade(float x) { return x * x * x * (x * (x * 6 - 15) + 10); }
@@ -65,8 +64,8 @@ float gradient_noise(Vec3f p) {
   const int ix = floor_to_int(p.x), iy = floor_to_int(p.y), iz = floor_to_int(p.z);
   const float x = p.x - float(ix), y = p.y - float(iy), z = p.z - float(iz);
   const auto corner = [&](int dx, int dy, int dz) {
-    const int h = kShuffle[kShuffle[kShuffle[(ix + dx) & 255] + ((iy + dy) & 255)] +
-                           ((iz + dz) & 255)];
+    const int h =
+        kShuffle[kShuffle[kShuffle[(ix + dx) & 255] + ((iy + dy) & 255)] + ((iz + dz) & 255)];
     return dot(kGradients[h & 15], Vec3f{x - float(dx), y - float(dy), z - float(dz)});
   };
   const float kx = fade(x), ky = fade(y), kz = fade(z);

@@ -26,8 +26,8 @@ inline int floor_to_int(float x) {
 
 /// Smooth noise of about unit variance, clipped to [-1.5, 1.5]: gradient noise in octaves from
 /// wavelength `scale` down to three footprints (the size of a pixel at that place), below which
-/// nothing is left that could alias. `persistence` is the amplitude of an octave over the one before.
-/// Points with z = 0 exactly belong to a planar texture of its own, at half the cost.
+/// nothing is left that could alias. `persistence` is the amplitude of an octave over the one
+/// before. Points with z = 0 exactly belong to a planar texture of its own, at half the cost.
 float fractal_noise(Vec3f p, float scale, float persistence, std::uint32_t seed, float footprint);
 
 }  // namespace gigaray::synthetic

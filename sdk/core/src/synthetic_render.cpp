@@ -12,8 +12,8 @@ namespace {
 
 constexpr int kTile = 32;
 constexpr std::uint16_t kFigure = 0xffff;
-/// Rays per axis where one smooth surface fills the pixel; its texture has no wavelength below three
-/// pixels, so more of them change nothing that 8 bits show.
+/// Rays per axis where one smooth surface fills the pixel; its texture has no wavelength below
+/// three pixels, so more of them change nothing that 8 bits show.
 constexpr int kInteriorSamples = 2;
 
 /// Somebody who walks through the picture of one view: a silhouette in pixels of that view.
@@ -32,7 +32,8 @@ class Figure {
 
   Colour colour(double u, double v) const {
     const double x = (u - u_) / size_, y = (v - v_) / size_;
-    const float cloth = fractal_noise({float(x), float(y), 0}, 0.12f, 0.7f, seed_, float(1 / size_));
+    const float cloth =
+        fractal_noise({float(x), float(y), 0}, 0.12f, 0.7f, seed_, float(1 / size_));
     return (0.9f + 0.12f * cloth) * colours_[std::max(0, part_at(x, y))];
   }
 
@@ -53,8 +54,7 @@ class Figure {
   static bool near_segment(double x, double y, double ax, double ay, double bx, double by,
                            double radius) {
     const double dx = bx - ax, dy = by - ay;
-    const double k =
-        std::clamp(((x - ax) * dx + (y - ay) * dy) / (dx * dx + dy * dy), 0.0, 1.0);
+    const double k = std::clamp(((x - ax) * dx + (y - ay) * dy) / (dx * dx + dy * dy), 0.0, 1.0);
     const double ex = x - ax - k * dx, ey = y - ay - k * dy;
     return ex * ex + ey * ey <= radius * radius;
   }
@@ -100,7 +100,8 @@ class ViewRenderer {
     for (int v = 0; v < height; ++v) {
       control_.throw_if_cancelled();
       for (int u = 0; u < width; ++u) {
-        const Colour colour = is_edge(seen, u, v) ? edge_pixel(u, v) : interior_pixel(u, v, seen(u, v));
+        const Colour colour =
+            is_edge(seen, u, v) ? edge_pixel(u, v) : interior_pixel(u, v, seen(u, v));
         store(colour, u, v, out.picture);
       }
     }

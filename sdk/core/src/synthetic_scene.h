@@ -23,12 +23,12 @@ using Colour = Vec3f;
 struct Rig {
   explicit Rig(const SyntheticOptions& options);
 
-  double width = 0, height = 0;    ///< px
-  double cx = 0, cy = 0;           ///< px, the middle of the picture
-  double focal = 0;                ///< px
-  double far_z = 0;                ///< scene units
-  double near_disparity = 0;       ///< px per view step at Z = 1, without the offset
-  double offset = 0;               ///< px per view step, the disparity of infinity
+  double width = 0, height = 0;  ///< px
+  double cx = 0, cy = 0;         ///< px, the middle of the picture
+  double focal = 0;              ///< px
+  double far_z = 0;              ///< scene units
+  double near_disparity = 0;     ///< px per view step at Z = 1, without the offset
+  double offset = 0;             ///< px per view step, the disparity of infinity
 
   double disparity(double z) const { return near_disparity / z + offset; }
   /// Z of a nearness in [0, 1]: 0 the far end of the range, 1 the near end. Linear in disparity.
@@ -60,9 +60,9 @@ struct Material {
   Colour dark, mid, light;
   float scale = 0.2f;        ///< Coarsest wavelength, scene units.
   float persistence = 0.7f;  ///< Amplitude of each finer octave; larger is rougher.
-  float gloss = 0;        ///< Strength of the highlight, 0 … 1.
-  int gloss_power = 7;    ///< Highlight width: the cosine is raised to 2^gloss_power.
-  Vec3f gloss_direction;  ///< Unit vector towards the lamp that is mirrored.
+  float gloss = 0;           ///< Strength of the highlight, 0 … 1.
+  int gloss_power = 7;       ///< Highlight width: the cosine is raised to 2^gloss_power.
+  Vec3f gloss_direction;     ///< Unit vector towards the lamp that is mirrored.
   std::uint32_t seed = 0;
 };
 
@@ -115,7 +115,7 @@ struct Scene {
 
 Scene build_scene(const SyntheticOptions& options);
 
-/// Positions and names of the views, order t * views_s + s.
+/// Names and positions of the views, numbered as in SyntheticLightField.
 std::vector<View> make_views(const SyntheticOptions& options);
 
 struct RenderedView {

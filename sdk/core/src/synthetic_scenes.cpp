@@ -48,10 +48,9 @@ Colour random_colour(SceneBuilder& b) {
   return {float(b.random(0.25, 0.85)), float(b.random(0.25, 0.75)), float(b.random(0.2, 0.8))};
 }
 
-/// The nearest surface of a scene: a post at one side whose front has exactly the largest disparity.
-void near_post(SceneBuilder& b, double x) {
-  b.card({x, 0.2, 1}, 0.045, 0.34, planks(b, 0.06f));
-}
+/// The nearest surface of a scene: a post at one side whose front has exactly the largest
+/// disparity.
+void near_post(SceneBuilder& b, double x) { b.card({x, 0.2, 1}, 0.045, 0.34, planks(b, 0.06f)); }
 
 void build_planes(SceneBuilder& b) {
   b.backdrop(stone(b));
@@ -59,12 +58,12 @@ void build_planes(SceneBuilder& b) {
   const int count = 6;
   for (int i = 0; i < count; ++i) {
     const double nearness = 0.26 + 0.1 * i;
-    const Pattern pattern = i % 3 == 0 ? Pattern::kChecks
+    const Pattern pattern = i % 3 == 0   ? Pattern::kChecks
                             : i % 3 == 1 ? Pattern::kNoise
                                          : Pattern::kMarble;
     const Colour mid = random_colour(b);
-    const int look = b.material(pattern, 0.35f * mid, mid,
-                                0.4f * mid + Colour{0.55f, 0.55f, 0.5f}, 0.07f, 0.85f);
+    const int look = b.material(pattern, 0.35f * mid, mid, 0.4f * mid + Colour{0.55f, 0.55f, 0.5f},
+                                0.07f, 0.85f);
     const Place place{-0.36 + 0.72 * (i * 5 % count) / (count - 1) + b.random(-0.03, 0.03),
                       b.random(-0.28, 0.28), nearness};
     b.card(place, b.random(0.13, 0.2), b.random(0.13, 0.2), look, b.random(-0.11, 0.11),
@@ -103,8 +102,7 @@ void build_wall(SceneBuilder& b) {
   b.slope({0, 0.3, 0}, {0, 0.5, 0.34}, planks(b, 0.2f));
   b.card({b.random(-0.3, -0.22), b.random(-0.2, -0.14), 0.06}, 0.17, 0.13,
          marble(b, random_colour(b), 0.1f));
-  b.card({b.random(0.16, 0.22), b.random(-0.22, -0.12), 0.12}, 0.11, 0.15, foliage(b), 0.05,
-         0);
+  b.card({b.random(0.16, 0.22), b.random(-0.22, -0.12), 0.12}, 0.11, 0.15, foliage(b), 0.05, 0);
   b.ball({b.random(-0.1, 0.02), 0.22, 0.62}, 0.15, marble(b, random_colour(b), 0.08f));
   b.rod({0.3, 0.42, 0.5}, {b.random(0.33, 0.4), -0.34, 0.44}, 0.009, bark(b));
   near_post(b, b.random(-0.42, -0.36));
@@ -143,7 +141,8 @@ void build_garden(SceneBuilder& b) {
     b.card(place, half_x, half_y, look, half_x * b.height_over_width() * house_rise);
   };
   b.slope({corner, 0, 0}, {corner + 1, 0, house_rise}, bricks(b, 0.16f));
-  fixture(on_house(0.36, -0.2, 0.004), 0.19, 0.24, b.material(Pattern::kPlain, {}, {0.90f, 0.86f, 0.76f}, {}, 1));
+  fixture(on_house(0.36, -0.2, 0.004), 0.19, 0.24,
+          b.material(Pattern::kPlain, {}, {0.90f, 0.86f, 0.76f}, {}, 1));
   fixture(on_house(0.14, -0.21, 0.004), 0.085, 0.125, planks(b, 0.05f));
   const int pane = b.material(Pattern::kNoise, {0.10f, 0.16f, 0.24f}, {0.17f, 0.25f, 0.35f},
                               {0.28f, 0.38f, 0.48f}, 0.1f, 0.7f);
@@ -176,8 +175,8 @@ void build_garden(SceneBuilder& b) {
     b.rod({x + b.random(-0.05, 0.05), 0.8, nearness - 0.06}, {x, y, nearness - 0.03}, 0.006, stem);
     const Colour petal = petals[i % 3];
     b.disc(head, 0.055, 0.05,
-           b.material(Pattern::kNoise, 0.55f * petal, petal, 0.5f * petal + Colour{0.5f, 0.5f, 0.5f},
-                      0.04f, 0.9f));
+           b.material(Pattern::kNoise, 0.55f * petal, petal,
+                      0.5f * petal + Colour{0.5f, 0.5f, 0.5f}, 0.04f, 0.9f));
   }
 }
 

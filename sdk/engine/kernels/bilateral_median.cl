@@ -15,7 +15,7 @@
 #endif
 
 // Unsigned integers in the order of the floats they stand for.
-inline vuint ordered(vint bits) { return VAS_UINT(bits ^ ((bits >> 31) | (vint)(0x80000000))); }
+static inline vuint ordered(vint bits) { return VAS_UINT(bits ^ ((bits >> 31) | (vint)(0x80000000))); }
 
 __kernel void bilateral_median(__global const float* band, const BandParams p,
                                const StripParams strip, __global const float* in,

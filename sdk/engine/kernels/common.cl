@@ -60,30 +60,30 @@ typedef CONCAT(uint, LANES) vuint;
 // VTRUE: a condition as 0 or -1 per lane, whatever LANES is.
 
 // Pixel u of a row of a map of the reference view.
-inline size_t map_index(const StripParams strip, int row, int u) {
+static inline size_t map_index(const StripParams strip, int row, int u) {
   return (size_t)row * strip.pitch + GIGARAY_PAD + u;
 }
 
 // Pixel u of hypothesis i of a row of a score volume.
-inline size_t score_index(const StripParams strip, int hypotheses, int row, int i, int u) {
+static inline size_t score_index(const StripParams strip, int hypotheses, int row, int i, int u) {
   return ((size_t)row * hypotheses + i) * strip.pitch + GIGARAY_PAD + u;
 }
 
 // First pixel of channel 0 of a row of a view.
-inline __global const float* band_row(__global const float* band, const BandParams p, int view,
+static inline __global const float* band_row(__global const float* band, const BandParams p, int view,
                                       int v) {
   return band + ((size_t)(v - p.row_begin) * p.num_views + view) * CHANNELS * p.stride +
          GIGARAY_PAD;
 }
 
 // Catmull-Rom weights of the taps at -1, 0, 1, 2 for a fraction f in [0, 1).
-inline float4 cubic_weights(float f) {
+static inline float4 cubic_weights(float f) {
   const float f2 = f * f, f3 = f2 * f;
   return (float4)(-0.5f * f3 + f2 - 0.5f * f, 1.5f * f3 - 2.5f * f2 + 1.0f,
                   -1.5f * f3 + 2.0f * f2 + 0.5f * f, 0.5f * f3 - 0.5f * f2);
 }
 
-inline vfloat interpolate_row(__global const float* x, float f, float4 w) {
+static inline vfloat interpolate_row(__global const float* x, float f, float4 w) {
 #if CUBIC
   return w.s0 * VLOAD(x - 1) + w.s1 * VLOAD(x) + w.s2 * VLOAD(x + 1) + w.s3 * VLOAD(x + 2);
 #else
@@ -94,7 +94,7 @@ inline vfloat interpolate_row(__global const float* x, float f, float4 w) {
 
 // Colours of LANES neighbouring positions (xi + fx + lane, yi + fy) of a view, fx and fy in [0, 1).
 // inside: 1 for lanes within the picture, else 0. Returns 0 when no lane is, then nothing is set.
-inline int sample_translated(__global const float* band, const BandParams p, int view, int xi,
+static inline int sample_translated(__global const float* band, const BandParams p, int view, int xi,
                              float fx, int yi, float fy, vfloat* colour, vfloat* inside) {
   const int last_column = p.width - 1 - (fx > 0.0f);
   if (yi < 0 || yi + (fy > 0.0f) > p.height - 1 || xi + LANES <= 0 || xi > last_column) return 0;

@@ -31,7 +31,7 @@
 #define FAR_AWAY 1e4f
 
 // Colours of view k under a hypothesis; FAR_AWAY where it sees nothing. Adds to count where it does.
-inline void sample_or_far(__global const float* band, const BandParams p,
+static inline void sample_or_far(__global const float* band, const BandParams p,
                           __global const float* views, int ref, int k, int u, int v, float h,
                           vfloat* colour, vfloat* count) {
   vfloat inside;
@@ -44,7 +44,7 @@ inline void sample_or_far(__global const float* band, const BandParams p,
 }
 
 // Epanechnikov kernel (eq. 4) of a colour around a mean.
-inline vfloat epanechnikov(vfloat red, vfloat green, vfloat blue, const vfloat* mean,
+static inline vfloat epanechnikov(vfloat red, vfloat green, vfloat blue, const vfloat* mean,
                            float inverse_h2) {
   const vfloat r = red - mean[0], g = green - mean[1], b = blue - mean[2];
   return max(1.0f - (r * r + g * g + b * b) * inverse_h2, (vfloat)(0.0f));
@@ -55,7 +55,7 @@ typedef struct {
   vfloat weights, red, green, blue;
 } MeanShiftSums;
 
-inline void add_sample(MeanShiftSums* sums, vfloat red, vfloat green, vfloat blue,
+static inline void add_sample(MeanShiftSums* sums, vfloat red, vfloat green, vfloat blue,
                        const vfloat* mean, float inverse_h2) {
   const vfloat w = epanechnikov(red, green, blue, mean, inverse_h2);
   sums->weights += w;

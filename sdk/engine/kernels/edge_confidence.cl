@@ -15,7 +15,7 @@
 #define BOTH_AXES 0  // 1 for light fields that extend along t too
 #endif
 
-inline vfloat colour_difference(__global const float* a, __global const float* b, int stride) {
+static inline vfloat colour_difference(__global const float* a, __global const float* b, int stride) {
   vfloat sum = (vfloat)(0.0f);
   for (int c = 0; c < 3; ++c) {
     const vfloat d = VLOAD(a + c * stride) - VLOAD(b + c * stride);

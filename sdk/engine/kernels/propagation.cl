@@ -10,7 +10,7 @@
 //              confidence; 0: none
 // One work-item per active view: nobody else writes its estimates, so no atomics are needed.
 
-inline ulong packed_estimate(float h, float confidence) {
+static inline ulong packed_estimate(float h, float confidence) {
   const uint bits = as_uint(h);
   const uint key = bits & 0x80000000u ? ~bits : bits | 0x80000000u;
   return (ulong)key << 32 | as_uint(fmax(confidence, 0.0f));

@@ -24,18 +24,20 @@ struct SyntheticOptions {
   int views_t = 1;   ///< views along t; 1 gives a 3D light field
   /// Disparity of the farthest and of the nearest surface, px per view step.
   DisparityRange disparity{-1.0, 1.0};
-  double noise = 0;     ///< Standard deviation of Gaussian sensor noise on the encoded [0, 1] value.
+  double noise = 0;  ///< Standard deviation of Gaussian sensor noise on the encoded [0, 1] value.
   double outliers = 0;  ///< Share of views in which something that walks through is seen, 0 … 1.
   std::uint64_t seed = 1;
   int bit_depth = 8;  ///< 8 or 16
-  int samples = 4;    ///< Rays per pixel and axis, 1 … 16, where a pixel sees an edge; inside a surface
-                      ///< two are enough, because no texture is finer than three pixels. Disparity
-                      ///< is exact for the ray through the pixel centre.
+  int samples = 4;    ///< Rays per pixel and axis, 1 … 16, where a pixel sees an edge; inside a
+                    ///< surface two are enough, because no texture is finer than three pixels.
+                    ///< Disparity is exact for the ray through the pixel centre.
 
   void check() const;  ///< Throws Error(kInvalidArgument) naming the field and its value.
 };
 
-/// The light field with its exact disparity, one map per view, same order as the views.
+/// The light field with its exact disparity, one map per view, same order as the views. They are
+/// numbered as the camera goes right, then down, which is the usual order of pictures; s and t fall
+/// with the number (View). "view_007" in a row, "view_TT_SS" in a grid.
 struct SyntheticLightField {
   LightField light_field;
   std::vector<FloatMap> disparity;  ///< px per view step, finite everywhere
@@ -49,7 +51,8 @@ struct SyntheticLightField {
 /// "garden"  all of the above in one picture; the demo
 const std::vector<std::string>& synthetic_scene_names();
 
-/// Renders every view, on all cores. Memory: 6 bytes per pixel and view plus one float map per view.
+/// Renders every view, on all cores. Memory: 6 bytes per pixel and view plus one float map per
+/// view.
 SyntheticLightField render_synthetic(const SyntheticOptions& options, const RunControl& control);
 
 /// What render_synthetic would return, without rendering: everything but the pixels.

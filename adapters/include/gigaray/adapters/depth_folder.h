@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Gigaray authors
+#pragma once
+
+#include <filesystem>
+#include <set>
+#include <string>
+
+#include "gigaray/adapters/atomic_output.h"
+#include "gigaray/image.h"
+#include "gigaray/light_field.h"
+
+namespace gigaray {
+
+/// Value of "format" in the gigaray.json of an output folder of `gigaray depth`.
+inline constexpr const char* kDepthFormat = "gigaray depth";
+
+/// Formats of maps beside the PFM files.
+enum class MapFormat { kExr, kNpy, kPng16 };
+
+/// The output folder of `gigaray depth` (docs/formats.md): VIEW/disparity.pfm, VIEW/confidence.pfm and
+/// VIEW/depth.png for every view, those of the centre view also at top level, gigaray.json. Appears
+/// only when complete.
+class DepthFolder {
+ public:
+  /// pictured: range of the colours of depth.png and of 16-bit PNGs. Throws like AtomicFolder.
+  DepthFolder(const std::filesystem::path& target, std::set<MapFormat> formats,
+              DisparityRange pictured)
+      : folder_(target, kDepthFormat), formats_(std::move(formats)), pictured_(pictured) {}
+
+  /// disparity, confidence: (v, u), NaN where there is no estimate.
+  void write_view(const std::string& name, const FloatMap& disparity, const FloatMap& confidence,
+                  bool is_centre);
+
+  /// Adds gigaray.json and puts the folder in its place.
+  void commit(const std::string& json);
+
+ private:
+  void write_maps(const std::filesystem::path& folder, const FloatMap& disparity,
+                  const FloatMap& confidence) const;
+
+  AtomicFolder folder_;
+  std::set<MapFormat> formats_;
+  DisparityRange pictured_;
+};
+
+}  // namespace gigaray

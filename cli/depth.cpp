@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Gigaray authors
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include <chrono>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "command.h"
+#include "depth_options_cli.h"
+#include "gigaray/adapters/depth_folder.h"
+#include "gigaray/reconstruct.h"
+#include "view_list.h"
+
+namespace gigaray::cli {
+namespace {
+
+using nlohmann::ordered_json;
+
+struct Settings {
+  DepthRunOptions run;
+  std::string views = "all";
+  std::filesystem::path output;
+  std::vector<std::string> formats;
+  bool json = false;
+};
+
+double peak_memory_mib() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return usage.ru_maxrss / 1024.0;
+}
+
+/// Share of pixels that each level decided.
+class Coverage {
+ public:
+  explicit Coverage(int levels) : counts_(levels + 1) {}
+  void add(const ViewDepth& depth) {
+    for (const std::int8_t level : depth.level) ++counts_[level + 1];
+    total_ += double(depth.level.size());
+  }
+  ordered_json json() const {
+    ordered_json shares = ordered_json::array();
+    for (std::size_t level = 1; level < counts_.size(); ++level)
+      shares.push_back(counts_[level] / total_);
+    return {{"per_level", shares}, {"none", counts_[0] / total_}};
+  }
+
+ private:
+  std::vector<double> counts_;  ///< [0]: no estimate
+  double total_ = 0;
+};
+
+ordered_json options_json(const Reconstruction& result) {
+  const DepthOptions& o = result.options();
+  const HypothesisRange& h = result.hypotheses();
+  return {{"preset", o.preset},
+          {"disparity_range", {h.min, h.max}},
+          {"hypotheses", h.count},
+          {"linear_rgb", o.score.linear_rgb},
+          {"gradient", o.score.gradient},
+          {"bandwidth", o.score.bandwidth},
+          {"gradient_bandwidth", o.score.gradient_bandwidth},
+          {"mean_shift_iterations", o.score.mean_shift_iterations},
+          {"edge_threshold", o.edge.threshold},
+          {"edge_squared", o.edge.squared},
+          {"support_radius", o.support.radius},
+          {"median_radius", o.winner.median_radius},
+          {"min_confidence", o.winner.min_confidence},
+          {"refine", o.winner.refine},
+          {"propagation_tolerance", o.propagation.tolerance}};
+}
+
+ordered_json light_field_json(const LightField& light_field) {
+  const auto number = [](const std::optional<double>& value) {
+    return value ? ordered_json(*value) : ordered_json(nullptr);
+  };
+  const RigGeometry& rig = light_field.rig;
+  return {{"format", light_field.format},
+          {"kind", to_string(light_field.kind)},
+          {"width", light_field.width},
+          {"height", light_field.height},
+          {"num_views", light_field.num_views()},
+          {"rig",
+           {{"focal_px", number(rig.focal_px)},
+            {"baseline", number(rig.baseline)},
+            {"focus_distance", number(rig.focus_distance)},
+            {"unit", rig.unit}}}};
+}
+
+void run(const Settings& settings, const RunControl& control) {
+  const auto begin = std::chrono::steady_clock::now();
+  LightField light_field = settings.run.input.open_light_field();
+  for (const std::string& note : light_field.notes) control.message(note);
+  DepthOptions options = settings.run.resolve(light_field, control);
+  options.views = parse_views(settings.views, light_field);
+
+  Reconstruction result = reconstruct(light_field, options, settings.run.backend(), control);
+
+  const HypothesisRange& range = result.hypotheses();
+  std::set<MapFormat> formats;
+  for (const std::string& name : settings.formats)
+    formats.insert(name == "exr"   ? MapFormat::kExr
+                   : name == "npy" ? MapFormat::kNpy
+                                   : MapFormat::kPng16);
+  DepthFolder folder(settings.output, formats, {range.min, range.max});
+  const int centre = views_from_centre(light_field).front();
+  ordered_json views = ordered_json::array();
+  Coverage all(result.num_levels()), of_centre(result.num_levels());
+  const std::vector<int>& active = result.views();
+  // Without the centre view, the one nearest to it stands at top level.
+  int top = active.front();
+  for (const int view : views_from_centre(light_field))
+    if (std::find(active.begin(), active.end(), view) != active.end()) {
+      top = view;
+      break;
+    }
+  for (std::size_t i = 0; i < active.size(); ++i) {
+    control.progress("write", double(i), double(active.size()));
+    const View& view = light_field.views[active[i]];
+    const ViewDepth depth = result.view(active[i]);
+    folder.write_view(view.name, depth.disparity, depth.confidence, active[i] == top);
+    all.add(depth);
+    if (active[i] == top) of_centre.add(depth);
+    views.push_back({{"name", view.name}, {"s", view.s}, {"t", view.t}});
+  }
+
+  const double seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  ordered_json root{{"format", kDepthFormat},
+                    {"version", 1},
+                    {"program", "gigaray " GIGARAY_VERSION},
+                    {"input", std::filesystem::absolute(settings.run.input.input).string()},
+                    {"light_field", light_field_json(light_field)},
+                    {"options", options_json(result)},
+                    {"unit", "level-0 px per view step; positive is nearer"},
+                    {"centre", light_field.views[centre].name},
+                    {"top_level_view", light_field.views[top].name},
+                    {"views", views},
+                    {"device", result.device()},
+                    {"coverage", {{"top_level_view", of_centre.json()}, {"all", all.json()}}},
+                    {"tuples", result.num_tuples()},
+                    {"seconds", result.seconds()},
+                    {"seconds_total", seconds},
+                    {"peak_memory_mib", peak_memory_mib()},
+                    {"bands", result.forecast().bands},
+                    {"forecast_memory_mib", result.forecast().memory_bytes / (1 << 20)},
+                    {"disk_mib", result.forecast().disk_bytes / (1 << 20)}};
+  const std::string text = root.dump(2, ' ', false, ordered_json::error_handler_t::replace);
+  folder.commit(text);
+  control.progress("write", 1, 1);
+  if (settings.json)
+    fmt::print("{}\n", text);
+  else
+    fmt::print("{}: {} views in {:.1f} s on {}\n", settings.output.string(), active.size(), seconds,
+               result.device());
+}
+
+}  // namespace
+
+Run depth_command(CLI::App& app) {
+  app.description("Depth for every view of a light field");
+  auto settings = std::make_shared<Settings>();
+  settings->run.add_to(app);
+  app.add_option("-o,--output", settings->output, "Folder for the result; replaced if it is an "
+                 "older result")->type_name("DIR")->required();
+  app.add_option("--views", settings->views,
+                 "all, centre, or a list of names, indices and ranges: 0,4-6,view_09")
+      ->capture_default_str();
+  app.add_option("--format", settings->formats, "Maps in these formats too: exr, npy, png16")
+      ->check(CLI::IsMember({"exr", "npy", "png16"}))
+      ->delimiter(',');
+  app.add_flag("--json", settings->json, "Print gigaray.json to stdout");
+  return [settings](const RunControl& control) { run(*settings, control); };
+}
+
+}  // namespace gigaray::cli

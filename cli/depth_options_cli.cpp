@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Gigaray authors
+#include "depth_options_cli.h"
+
+#include "gigaray/scene_estimates.h"
+
+namespace gigaray::cli {
+
+void DepthRunOptions::add_to(CLI::App& app) {
+  input.add_to(app);
+  app.add_option("--preset", preset, "auto, or paper: the steps and constants of Kim et al. 2013")
+      ->check(CLI::IsMember({"auto", "paper"}))
+      ->capture_default_str();
+  app.add_option("--disparity", disparity,
+                 "Range to test, px per view step, positive is nearer (default: from the input, else "
+                 "estimated)")
+      ->expected(2)
+      ->type_name("MIN MAX");
+  app.add_option("--hypotheses", hypotheses, "Number of disparities to test, 2 … 4096 (default: 256 "
+                 "for paper, one every 0.035 px for auto)")
+      ->type_name("N");
+  app.add_option("--device", device,
+                 "OpenCL device: index or part of its name, see `gigaray devices`; `reference` for "
+                 "plain, slow C++")
+      ->type_name("D");
+  app.add_option("--memory", memory_gib, "Most memory to use (default: three quarters of what is "
+                 "free); the result does not depend on it")
+      ->check(CLI::PositiveNumber)
+      ->type_name("GiB");
+  app.add_option("--work", work_folder, "Folder for intermediate data that memory does not hold "
+                 "(default: the folder for temporary files)")
+      ->type_name("DIR");
+}
+
+BackendChoice DepthRunOptions::backend() const {
+  if (device == "reference") return {"reference", ""};
+  return {"opencl", device};
+}
+
+DepthOptions DepthRunOptions::resolve(LightField& light_field, const RunControl& control) const {
+  DepthOptions options = preset_options(preset);
+  if (!disparity.empty()) options.disparity = DisparityRange{disparity[0], disparity[1]};
+  if (hypotheses != 0) options.hypotheses = hypotheses;
+  options.memory_bytes = memory_gib * double(1 << 30);
+  options.work_folder = work_folder;
+  options.check();
+  check(light_field);
+  if (const auto range = check_direction(light_field, control); range && !options.disparity)
+    options.disparity = range;
+  return options;
+}
+
+}  // namespace gigaray::cli

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Gigaray authors
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "gigaray/reconstruct.h"
+#include "input_options.h"
+
+namespace gigaray::cli {
+
+/// INPUT and the options that decide the result; shared by `depth` and `probe`.
+struct DepthRunOptions {
+  InputOptions input;
+  std::string preset = "auto";
+  std::vector<double> disparity;  ///< empty or MIN MAX
+  int hypotheses = 0;
+  std::string device;
+  double memory_gib = 0;
+  std::string work_folder;
+
+  void add_to(CLI::App& app);
+  BackendChoice backend() const;
+  /// The options of the engine. Checks the direction of travel, which may turn the axes of the light
+  /// field around.
+  DepthOptions resolve(LightField& light_field, const RunControl& control) const;
+};
+
+}  // namespace gigaray::cli

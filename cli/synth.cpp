@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Gigaray authors
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "command.h"
+#include "gigaray/adapters/atomic_output.h"
+#include "gigaray/adapters/light_field_json.h"
+#include "gigaray/adapters/maps.h"
+#include "gigaray/adapters/pictures.h"
+#include "gigaray/synthetic.h"
+
+namespace gigaray::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::ordered_json;
+
+struct SynthOptions {
+  SyntheticOptions scene;
+  fs::path out;
+  int views = 17;
+  std::string grid;  ///< "9x9"; empty: a row of `views`
+  std::pair<double, double> disparity{-1, 1};
+};
+
+/// The numbers of "9x7".
+std::pair<int, int> parse_grid(const std::string& text) {
+  int across = 0, down = 0;
+  char separator = 0, rest = 0;
+  std::istringstream stream(text);
+  if (!(stream >> across >> separator >> down) || separator != 'x' || stream >> rest)
+    throw Error(ErrorCode::kInvalidArgument,
+                "--grid is '" + text + "'; write views across x views down, for example 9x9");
+  return {across, down};
+}
+
+/// Adds how the scene was made to the description; readers of the light field skip it.
+void add_origin(const fs::path& description, const SyntheticOptions& scene) {
+  ordered_json root;
+  std::ifstream(description) >> root;
+  root["synthetic"] = {{"scene", scene.scene},         {"seed", scene.seed},
+                       {"noise", scene.noise},         {"outliers", scene.outliers},
+                       {"bit_depth", scene.bit_depth}, {"samples", scene.samples},
+                       {"truth", "truth.pfm"}};
+  write_file_atomically(description, root.dump(2) + "\n");
+}
+
+void synthesise(SynthOptions options, const RunControl& control) {
+  SyntheticOptions& scene = options.scene;
+  scene.views_s = options.views;
+  if (!options.grid.empty()) std::tie(scene.views_s, scene.views_t) = parse_grid(options.grid);
+  scene.disparity = {options.disparity.first, options.disparity.second};
+  const LightField light_field = describe_synthetic(scene);
+
+  AtomicFolder out(options.out, kLightFieldFormat);
+  const fs::path truth = out.path() / "truth";
+  fs::create_directory(truth);
+  const int centre = centre_view(light_field);
+  std::vector<std::string> files;
+  for (const View& view : light_field.views) files.push_back(view.name + ".png");
+  render_synthetic_views(
+      scene, control, [&](int view_idx, Image<std::uint16_t> picture, FloatMap disparity) {
+        write_png(out.path() / files[view_idx], picture, scene.bit_depth);
+        write_pfm(truth / (light_field.views[view_idx].name + ".pfm"), disparity);
+        if (view_idx == centre) write_pfm(out.path() / "truth.pfm", disparity);
+      });
+  const fs::path description = out.path() / "gigaray.json";
+  write_light_field_json(description, light_field, files);
+  add_origin(description, scene);
+  control.throw_if_cancelled();
+  out.commit();
+  fmt::print("{}: {} views of {} × {} px, disparity {:g} … {:g}; exact disparity in {}\n",
+             options.out.string(), files.size(), scene.width, scene.height, scene.disparity.min,
+             scene.disparity.max, (options.out / "truth").string());
+}
+
+}  // namespace
+
+Run synth_command(CLI::App& app) {
+  app.description("Render a synthetic light field with exact disparity for every view");
+  auto options = std::make_shared<SynthOptions>();
+  SyntheticOptions& scene = options->scene;
+  app.add_option("SCENE", scene.scene,
+                 fmt::format("One of {}", fmt::join(synthetic_scene_names(), ", ")))
+      ->required();
+  app.add_option("-o,--output", options->out, "Folder to write")->required();
+  app.add_option("--width", scene.width, "px")->capture_default_str();
+  app.add_option("--height", scene.height, "px")->capture_default_str();
+  auto* views = app.add_option("--views", options->views, "Views in a row: a 3D light field")
+                    ->capture_default_str();
+  app.add_option("--grid", options->grid, "Views across x down, as in 9x9: a 4D light field")
+      ->excludes(views)
+      ->type_name("SxT");
+  app.add_option("--disparity", options->disparity,
+                 "Of the farthest and the nearest surface, px per view step")
+      ->type_name("MIN MAX")
+      ->capture_default_str();
+  app.add_option("--noise", scene.noise, "Standard deviation of sensor noise, of a full range of 1")
+      ->capture_default_str();
+  app.add_option("--outliers", scene.outliers,
+                 "Share of views in which somebody walks through the picture, 0 to 1")
+      ->capture_default_str();
+  app.add_option("--seed", scene.seed, "The same seed gives the same pixels")
+      ->check([](const std::string& text) {
+        // The parser would take a negative number for a huge one.
+        return text.starts_with('-') ? "is " + text + "; it must be 0 or more" : std::string();
+      })
+      ->capture_default_str();
+  app.add_option("--bit-depth", scene.bit_depth, "8 or 16")->capture_default_str();
+  app.add_option("--samples", scene.samples, "Rays per pixel and axis at edges")
+      ->capture_default_str();
+  return [options](const RunControl& control) { synthesise(*options, control); };
+}
+
+}  // namespace gigaray::cli

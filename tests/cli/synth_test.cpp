@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Gigaray authors
+#include "gigaray/synthetic.h"
+
+#include <gtest/gtest.h>
+
+#include "cli/program_test.h"
+#include "gigaray/adapters/maps.h"
+#include "gigaray/adapters/reader.h"
+
+namespace gigaray {
+namespace {
+
+using SynthCommand = ProgramTest;
+using Names = std::set<std::string>;
+
+constexpr const char* kSmall = " --width 40 --height 31 --samples 2 ";
+
+TEST_F(SynthCommand, WritesARowThatOpensAsItWasRendered) {
+  const Result result = run(std::string("synth sphere -o made --views 3 --seed 5 --noise 0.01 "
+                                        "--disparity -2 1.5") +
+                            kSmall);
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(names_in("made"), (Names{"gigaray.json", "truth", "truth.pfm", "view_000.png",
+                                     "view_001.png", "view_002.png"}));
+  EXPECT_EQ(names_in("made/truth"), (Names{"view_000.pfm", "view_001.pfm", "view_002.pfm"}));
+
+  SyntheticOptions options;
+  options.scene = "sphere";
+  options.width = 40;
+  options.height = 31;
+  options.views_s = 3;
+  options.samples = 2;
+  options.seed = 5;
+  options.noise = 0.01;
+  options.disparity = {-2, 1.5};
+  const SyntheticLightField rendered = render_synthetic(options, RunControl());
+  const LightField opened = open_light_field(folder / "made");
+  EXPECT_EQ(opened.kind, LightFieldKind::k3D);
+  EXPECT_EQ(opened.declared_range, options.disparity);
+  EXPECT_FALSE(opened.sign_is_assumed);
+  for (int i = 0; i < 3; ++i) {
+    const View &read = opened.views[i], &made = rendered.light_field.views[i];
+    EXPECT_EQ(read.name, made.name);
+    EXPECT_EQ(read.s, made.s);
+    EXPECT_EQ(read.t, made.t);
+    EXPECT_EQ(opened.pixels->read(i), rendered.light_field.pixels->read(i));
+    EXPECT_EQ(read_pfm(folder / "made/truth" / (made.name + ".pfm")), rendered.disparity[i]);
+  }
+  EXPECT_EQ(read_pfm(folder / "made/truth.pfm"), rendered.disparity[1]);
+}
+
+TEST_F(SynthCommand, WritesAGridOfSixteenBits) {
+  ASSERT_EQ(run(std::string("synth wall -o made --grid 2x3 --bit-depth 16") + kSmall).exit_code, 0);
+  const LightField opened = open_light_field(folder / "made");
+  EXPECT_EQ(opened.kind, LightFieldKind::k4D);
+  EXPECT_EQ(opened.num_views(), 6);
+  EXPECT_EQ(opened.pixels->bit_depth(), 16);
+  EXPECT_TRUE(names_in("made").contains("view_02_01.png"));
+}
+
+TEST_F(SynthCommand, ReplacesItsOwnOutputAndNothingElse) {
+  ASSERT_EQ(run(std::string("synth wall -o made --views 5") + kSmall).exit_code, 0);
+  ASSERT_EQ(run(std::string("synth wall -o made --views 2") + kSmall).exit_code, 0);
+  EXPECT_FALSE(names_in("made").contains("view_002.png"));
+
+  std::filesystem::create_directory(folder / "mine");
+  std::ofstream(folder / "mine/diary.txt") << "dear";
+  expect_failure("synth wall -o mine", 2, "mine", "not empty");
+  EXPECT_EQ(names_in("mine"), (Names{"diary.txt"}));
+}
+
+TEST_F(SynthCommand, WrongUsageIsOneLineAndLeavesNothing) {
+  expect_failure("synth", 2, "SCENE");
+  expect_failure("synth wall", 2, "--output");
+  expect_failure("synth wal -o x", 2, "wal", "garden");
+  expect_failure("synth wall -o x --width 3", 2, "width", "3");
+  expect_failure("synth wall -o x --grid 3by3", 2, "--grid", "3by3");
+  expect_failure("synth wall -o x --grid 3x3x3", 2, "--grid", "3x3x3");
+  expect_failure("synth wall -o x --grid 3x3 --views 4", 2, "--grid", "--views");
+  expect_failure("synth wall -o x --views 1", 2, "views", "1");
+  expect_failure("synth wall -o x --disparity 1 0", 2, "disparity", "1 0");
+  expect_failure("synth wall -o x --seed -1", 2, "--seed", "-1");
+  expect_failure("synth wall -o x --noise lots", 2, "--noise", "lots");
+  EXPECT_EQ(names_in("."), Names{});
+}
+
+TEST_F(SynthCommand, APlaceThatCannotBeWrittenIsNamed) {
+  std::ofstream(folder / "file") << "x";
+  expect_failure("synth wall -o file/out", 1, "file/out");
+  EXPECT_EQ(names_in("."), (Names{"file"}));
+}
+
+TEST_F(SynthCommand, InterruptLeavesNothing) {
+  const std::string command = "cd '" + folder.string() + "' && exec timeout -s INT 0.5 '" +
+                              GIGARAY_PROGRAM +
+                              "' synth garden -o made --views 4000 --width 900 --height 700 2>.err";
+  std::system(command.c_str());
+  EXPECT_NE(text_of(".err").find("stopped"), std::string::npos) << text_of(".err");
+  EXPECT_EQ(names_in("."), Names{});
+}
+
+}  // namespace
+}  // namespace gigaray
