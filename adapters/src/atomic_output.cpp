@@ -21,14 +21,11 @@ namespace fs = std::filesystem;
   throw Error(ErrorCode::kIo, path.string() + ": can't be written (" + why.message() + ")");
 }
 
-// Beside `path`, so that renaming stays on one file system; the extension is kept for writers that
-// go by it.
+// Beside `path`, so that renaming stays on one file system; hidden, so that no reader takes it.
 fs::path temporary_beside(const fs::path& path) {
   static std::atomic<int> counter{0};
-  const std::string unique = std::to_string(getpid()) + "-" + std::to_string(counter++);
-  fs::path name = "." + path.stem().string() + ".partial-" + unique;
-  name += path.extension();
-  return path.parent_path() / name;
+  return path.parent_path() / ("." + path.filename().string() + ".partial-" +
+                               std::to_string(getpid()) + "-" + std::to_string(counter++));
 }
 
 // "format" in the folder's gigaray.json; empty when there is none.
@@ -43,26 +40,20 @@ std::string format_of(const fs::path& folder) {
 }  // namespace
 
 void write_file_atomically(const fs::path& path, std::string_view bytes) {
-  write_file_atomically(path, [&](const fs::path& temporary) {
-    errno = 0;
-    std::ofstream file(temporary, std::ios::binary);
-    file.write(bytes.data(), std::streamsize(bytes.size()));
-    file.close();
-    if (!file) cannot_write(path, std::error_code(errno, std::generic_category()));
-  });
-}
-
-void write_file_atomically(const fs::path& path,
-                           const std::function<void(const fs::path&)>& write) {
   const fs::path temporary = temporary_beside(path);
+  errno = 0;
+  std::ofstream file(temporary, std::ios::binary);
+  file.write(bytes.data(), std::streamsize(bytes.size()));
+  file.close();
   std::error_code error;
-  try {
-    write(temporary);
+  if (!file)
+    error = std::error_code(errno, std::generic_category());
+  else
     fs::rename(temporary, path, error);
-    if (error) cannot_write(path, error);
-  } catch (...) {
-    fs::remove(temporary, error);
-    throw;
+  if (error) {
+    std::error_code ignored;
+    fs::remove(temporary, ignored);
+    cannot_write(path, error);
   }
 }
 

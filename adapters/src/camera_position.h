@@ -6,8 +6,9 @@
 
 namespace gigaray {
 
-/// Puts a view where its camera stands: `right` and `down` of the origin, as the picture shows right
-/// and down (see View). The one place where adapters convert a direction in the world into s and t.
+/// Puts a view where its camera stands: `right` and `down` of the origin, as the picture shows
+/// right and down (see View). The one place where adapters convert a direction in the world into s
+/// and t.
 inline void place_camera(View& view, double right, double down) {
   view.s = right;
   view.t = down;

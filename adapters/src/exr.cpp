@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Gigaray authors
-// OpenEXR, https://openexr.com: one channel, "Y" when written; rows from top to bottom as in memory.
+// OpenEXR, https://openexr.com: one channel, "Y" when written; rows from top to bottom as in
+// memory.
 #include <ImfChannelList.h>
 #include <ImfFrameBuffer.h>
+#include <ImfHeader.h>
 #include <ImfInputFile.h>
 #include <ImfOutputFile.h>
+#include <ImfStdIO.h>
 
 #include <exception>
 
@@ -51,19 +54,17 @@ FloatMap read_exr(const std::filesystem::path& path) {
 
 void write_exr(const std::filesystem::path& path, const FloatMap& map) {
   GIGARAY_CHECK(map.channels() == 1 && !map.empty());
-  write_file_atomically(path, [&](const std::filesystem::path& temporary) {
-    try {
-      Imf::Header header(map.width(), map.height());
-      header.compression() = Imf::ZIP_COMPRESSION;
-      header.channels().insert("Y", Imf::Channel(Imf::FLOAT));
-      Imf::OutputFile file(temporary.c_str(), header);
-      FloatMap copy = map;  // the library takes pixels that it could change
-      file.setFrameBuffer(frame_buffer(copy, "Y", 0, 0));
-      file.writePixels(map.height());
-    } catch (const std::exception& error) {
-      throw Error(ErrorCode::kIo, path.string() + ": can't be written (" + error.what() + ")");
-    }
-  });
+  Imf::StdOSStream stream;
+  {
+    Imf::Header header(map.width(), map.height());
+    header.compression() = Imf::ZIP_COMPRESSION;
+    header.channels().insert("Y", Imf::Channel(Imf::FLOAT));
+    Imf::OutputFile file(stream, header);
+    FloatMap copy = map;  // the library takes pixels that it could change
+    file.setFrameBuffer(frame_buffer(copy, "Y", 0, 0));
+    file.writePixels(map.height());
+  }  // writes the table of rows
+  write_file_atomically(path, stream.str());
 }
 
 }  // namespace gigaray

@@ -71,9 +71,9 @@ Image<std::uint16_t> decode(const fs::path& path, PictureSpec& spec) {
     if (spec.is_grey) image = image.bandjoin({image, image});
 
     Image<std::uint16_t> picture(image.width(), image.height(), 3);
-    image.write(vips::VImage::new_from_memory(picture.data(), picture.size() * sizeof(std::uint16_t),
-                                              picture.width(), picture.height(), 3,
-                                              VIPS_FORMAT_USHORT));
+    image.write(
+        vips::VImage::new_from_memory(picture.data(), picture.size() * sizeof(std::uint16_t),
+                                      picture.width(), picture.height(), 3, VIPS_FORMAT_USHORT));
     return picture;
   } catch (const vips::VError& error) {
     bad(path, "is damaged or cut short (" + vips_reason(error) + ")");

@@ -17,9 +17,9 @@ std::string png_bytes(const Image<std::uint16_t>& picture, int bit_depth) {
                           : (deep ? VIPS_INTERPRETATION_RGB16 : VIPS_INTERPRETATION_sRGB);
   try {
     const auto image =
-        vips::VImage::new_from_memory(
-            const_cast<std::uint16_t*>(picture.data()), picture.size() * sizeof(std::uint16_t),
-            picture.width(), picture.height(), picture.channels(), VIPS_FORMAT_USHORT)
+        vips::VImage::new_from_memory(const_cast<std::uint16_t*>(picture.data()),
+                                      picture.size() * sizeof(std::uint16_t), picture.width(),
+                                      picture.height(), picture.channels(), VIPS_FORMAT_USHORT)
             .cast(deep ? VIPS_FORMAT_USHORT : VIPS_FORMAT_UCHAR)
             .copy(vips::VImage::option()->set("interpretation", space));
     const std::unique_ptr<VipsBlob, void (*)(VipsBlob*)> blob(

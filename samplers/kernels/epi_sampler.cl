@@ -16,7 +16,7 @@ static inline int locate(__global const float* views, int ref, int other, float 
 static inline int sample_lanes(__global const float* band, const BandParams p,
                         __global const float* views, int ref, int other, int u, int v, float h,
                         vfloat* colour, vfloat* inside) {
-  const float shift = (views[ref] - views[other]) * h;
+  const float shift = snapped((views[ref] - views[other]) * h);
   const float whole = floor(shift);
   return sample_translated(band, p, other, u + (int)whole, shift - whole, v, 0.0f, colour, inside);
 }

@@ -16,8 +16,8 @@ static inline int locate(__global const float* views, int ref, int other, float 
 static inline int sample_lanes(__global const float* band, const BandParams p,
                         __global const float* views, int ref, int other, int u, int v, float h,
                         vfloat* colour, vfloat* inside) {
-  const float shift_u = (views[2 * ref] - views[2 * other]) * h;
-  const float shift_v = (views[2 * ref + 1] - views[2 * other + 1]) * h;
+  const float shift_u = snapped((views[2 * ref] - views[2 * other]) * h);
+  const float shift_v = snapped((views[2 * ref + 1] - views[2 * other + 1]) * h);
   const float whole_u = floor(shift_u), whole_v = floor(shift_v);
   return sample_translated(band, p, other, u + (int)whole_u, shift_u - whole_u, v + (int)whole_v,
                            shift_v - whole_v, colour, inside);

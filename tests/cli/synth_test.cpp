@@ -92,7 +92,7 @@ TEST_F(SynthCommand, APlaceThatCannotBeWrittenIsNamed) {
 }
 
 TEST_F(SynthCommand, InterruptLeavesNothing) {
-  const std::string command = "cd '" + folder.string() + "' && exec timeout -s INT 0.5 '" +
+  const std::string command = "cd '" + folder.string() + "' && exec timeout -s INT 1.5 '" +
                               GIGARAY_PROGRAM +
                               "' synth garden -o made --views 4000 --width 900 --height 700 2>.err";
   std::system(command.c_str());

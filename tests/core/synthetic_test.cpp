@@ -66,7 +66,7 @@ Agreement follow(const SyntheticLightField& field, int a, int b, double toleranc
   for (int v = 1; v < truth_a.height() - 1; ++v) {
     for (int u = 1; u < truth_a.width() - 1; ++u) {
       const double d = truth_a(u, v);
-      const double u_b = u + sign * (to.s - from.s) * d, v_b = v + sign * (to.t - from.t) * d;
+      const double u_b = u + sign * (from.s - to.s) * d, v_b = v + sign * (from.t - to.t) * d;
       if (u_b < 0 || v_b < 0 || u_b >= truth_a.width() - 1 || v_b >= truth_a.height() - 1) continue;
       // Both views see one smooth surface there: the disparities around agree.
       bool both = true;
@@ -282,8 +282,8 @@ TEST(Synthetic, DescribesWhatItRenders) {
   check(light_field);
   ASSERT_EQ(light_field.num_views(), 12);
   EXPECT_EQ(light_field.views[5].name, "view_01_01");
-  // The camera goes right and down as the numbers rise, s and t fall.
-  EXPECT_EQ(light_field.views[5].s, 0.5);
+  // The camera goes right and down as the numbers rise.
+  EXPECT_EQ(light_field.views[5].s, -0.5);
   EXPECT_EQ(light_field.views[5].t, 0);
   EXPECT_EQ(light_field.declared_range, options.disparity);
   // The nearest surface stands at one metre, the farthest at two and a half.

@@ -121,7 +121,7 @@ std::vector<View> make_views(const SyntheticOptions& options) {
         std::snprintf(name, sizeof name, "view_%03d", s);
       else
         std::snprintf(name, sizeof name, "view_%02d_%02d", t, s);
-      views.push_back({name, (options.views_s - 1) / 2.0 - s, (options.views_t - 1) / 2.0 - t});
+      views.push_back({name, s - (options.views_s - 1) / 2.0, t - (options.views_t - 1) / 2.0});
     }
   }
   return views;

@@ -13,9 +13,6 @@ namespace {
 constexpr double kDepthRatio = 2.5;
 /// Focal length over the longer side of the picture.
 constexpr double kFocalOverSize = 1.2;
-/// +1: a near point moves to larger u when s grows (light_field.h). The camera that stands at
-/// positive s is then the one at negative X.
-constexpr double kShiftSign = 1;
 
 /// Smallest root above zero of a z² + 2 b z + c, given that the ray starts outside; else kNoHit.
 double first_root(double a, double b, double c) {
@@ -81,10 +78,10 @@ RigGeometry Rig::geometry() const {
 }
 
 Camera::Camera(const Rig& rig, const View& view)
-    : origin{-kShiftSign * view.s * rig.near_disparity / rig.focal,
-             -kShiftSign * view.t * rig.near_disparity / rig.focal, 0},
-      u0(rig.cx + kShiftSign * view.s * rig.offset),
-      v0(rig.cy + kShiftSign * view.t * rig.offset),
+    : origin{view.s * rig.near_disparity / rig.focal,
+             view.t * rig.near_disparity / rig.focal, 0},
+      u0(rig.cx - view.s * rig.offset),
+      v0(rig.cy - view.t * rig.offset),
       inverse_focal(1 / rig.focal) {}
 
 double intersect(const Primitive& primitive, const Rig& rig, Vec3d origin, Vec3d direction) {

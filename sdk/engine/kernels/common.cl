@@ -76,6 +76,15 @@ static inline __global const float* band_row(__global const float* band, const B
          GIGARAY_PAD;
 }
 
+// Positions this near to a pixel centre are that centre, px. Otherwise rounding would decide whether
+// the last column is inside the picture, and a whole shift could cost a second row.
+#define SNAP 1e-4f
+
+inline float snapped(float x) {
+  const float whole = floor(x + 0.5f);
+  return fabs(x - whole) < SNAP ? whole : x;
+}
+
 // Catmull-Rom weights of the taps at -1, 0, 1, 2 for a fraction f in [0, 1).
 static inline float4 cubic_weights(float f) {
   const float f2 = f * f, f3 = f2 * f;

@@ -32,6 +32,8 @@ __kernel void mean_radiance(__global const float* band, const BandParams p, cons
     for (int k = 0; k < p.num_views; ++k) {
       float x, y, h_other;
       if (!locate(views, strip.ref, k, u, v, h, &x, &y, &h_other)) continue;
+      x = snapped(x);
+      y = snapped(y);
       if (!(x >= 0.0f && x <= p.width - 1 && y >= 0.0f && y <= p.height - 1)) continue;
       const int xi = (int)x, yi = (int)y;
       const float fx = x - xi, fy = y - yi;

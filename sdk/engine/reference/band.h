@@ -52,9 +52,19 @@ inline std::array<float, 4> tap_weights(float f, bool cubic) {
           0.5f * f3 - 0.5f * f2};
 }
 
+/// Positions this near to a pixel centre are that centre, px. Otherwise rounding would decide whether
+/// the last column is inside the picture.
+inline double snapped(double x) {
+  constexpr double kSnap = 1e-4;
+  const double whole = std::round(x);
+  return std::abs(x - whole) < kSnap ? whole : x;
+}
+
 /// The value of a view at a real position; empty outside the picture. Taps beyond an edge repeat it.
 inline std::optional<Sample> sample_at(const Band& band, int view, double u, double v, bool cubic) {
   const LevelShape& shape = band.shape;
+  u = snapped(u);
+  v = snapped(v);
   if (!(u >= 0 && u <= shape.width - 1 && v >= 0 && v <= shape.height - 1)) return std::nullopt;
   const int ui = int(u), vi = int(v);
   const auto wu = tap_weights(float(u - ui), cubic);

@@ -189,4 +189,80 @@ Forecast forecast(const LightField& light_field, const DepthOptions& options) {
   return plan_memory(light_field, run.options, run.hypotheses).forecast;
 }
 
+ScoreCurve probe(const LightField& light_field, const DepthOptions& options,
+                 const BackendChoice& choice, int view_idx, int u, int v,
+                 const RunControl& control) {
+  const int width = light_field.width, height = light_field.height;
+  if (view_idx < 0 || view_idx >= light_field.num_views() || u < 0 || u >= width || v < 0 ||
+      v >= height)
+    throw Error(ErrorCode::kInvalidArgument, "pixel " + std::to_string(u) + " " + std::to_string(v) +
+                                                 " is outside the picture of " +
+                                                 std::to_string(width) + "x" + std::to_string(height));
+  const Prepared run = prepare(light_field, options, control, true);
+  const auto backend = make_backend(light_field, run, choice);
+  const AnySampler sampler = make_sampler(light_field);
+
+  // The rows that the pixel's window reaches in any view, all views.
+  constexpr int kTaps = 3;  // interpolation and gradients
+  const int radius = run.options.support.radius;
+  const RowRange strip = grown({v, v + 1}, radius, height);
+  const RowRange rows = std::visit(
+      [&](const auto& s) {
+        return s.rows_needed(grown(strip, kTaps, height), run.hypotheses, height);
+      },
+      sampler);
+  const std::size_t line = std::size_t(width) * 3, views = light_field.views.size();
+  std::vector<std::uint16_t> encoded(rows.size() * views * line);
+  for (std::size_t view = 0; view < views; ++view) {
+    control.progress("decode", double(view), double(views));
+    const Image<std::uint16_t> picture = light_field.pixels->read(int(view));
+    for (int y = rows.begin; y < rows.end; ++y)
+      std::copy_n(picture.row(y), line,
+                  encoded.begin() + (std::size_t(y - rows.begin) * views + view) * line);
+  }
+  std::vector<std::uint8_t> bytes;
+  if (light_field.pixels->bit_depth() == 8) bytes.assign(encoded.begin(), encoded.end());
+  backend->begin_level({0, width, height});
+  if (bytes.empty())
+    backend->load_band(rows, encoded.data(), BandEncoding::kBits16);
+  else
+    backend->load_band(rows, bytes.data(), BandEncoding::kBits8);
+
+  const HypothesisBounds full{0, std::uint16_t(run.hypotheses.count - 1)};
+  StripMap<std::uint8_t> todo(width, strip);
+  StripMap<HypothesisBounds> bounds(width, strip);
+  for (int y = strip.begin; y < strip.end; ++y)
+    for (int x = std::max(u - radius, 0); x <= std::min(u + radius, width - 1); ++x) {
+      todo.row(y)[x] = 1;
+      bounds.row(y)[x] = full;
+    }
+  backend->density_score(view_idx, strip, todo, bounds);
+  const RowRange row{v, v + 1};
+  if (radius > 0) backend->score_support(view_idx, row, todo, bounds);
+  StripMap<float> disparity(width, row), contrast(width, row);
+  backend->winner(row, todo, bounds, disparity, contrast);
+
+  ScoreCurve curve;
+  curve.scores = backend->scores_at(u, v);
+  curve.hypotheses = run.hypotheses;
+  curve.disparity = disparity.row(v)[u];
+  curve.confidence = contrast.row(v)[u];
+  const float most = float((1 << light_field.pixels->bit_depth()) - 1);
+  for (std::size_t view = 0; view < views; ++view) {
+    const auto there = std::visit(
+        [&](const auto& s) {
+          return s.locate(view_idx, int(view), Ray{double(u), double(v), curve.disparity});
+        },
+        sampler);
+    Radiance seen{kNoEstimate, kNoEstimate, kNoEstimate};
+    if (there && there->u >= 0 && there->u <= width - 1 && there->v >= 0 && there->v <= height - 1) {
+      const std::size_t x = std::size_t(std::lround(there->u)), y = std::size_t(std::lround(there->v));
+      const std::uint16_t* pixel = &encoded[((y - rows.begin) * views + view) * line + 3 * x];
+      seen = {pixel[0] / most, pixel[1] / most, pixel[2] / most};
+    }
+    curve.samples.push_back(seen);
+  }
+  return curve;
+}
+
 }  // namespace gigaray

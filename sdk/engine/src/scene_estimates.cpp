@@ -180,8 +180,8 @@ RangeEstimate estimate_disparity_range(const LightField& light_field, const RunC
   const auto percentile = [&](double p) {
     return double(reliable[std::size_t(p * double(reliable.size() - 1))]);
   };
-  const double low = percentile(0.01), high = percentile(0.99);
-  const double margin = std::max(0.1 * (high - low), search.step());
+  const double low = percentile(0.003), high = percentile(0.997);
+  const double margin = std::max(0.12 * (high - low), search.step());
   estimate.range = {low - margin, high + margin};
   estimate.samples = long(reliable.size());
   for (const float d : reliable)

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
 #include <string>
 #include <string_view>
 
@@ -12,10 +11,6 @@ namespace gigaray {
 /// Writes a file beside its place and renames it there, so that nobody ever sees half of it; the
 /// temporary is removed when anything fails. Throws Error(kIo) naming the place.
 void write_file_atomically(const std::filesystem::path& path, std::string_view bytes);
-
-/// The same for a writer that wants a path: write(temporary) makes the file.
-void write_file_atomically(const std::filesystem::path& path,
-                           const std::function<void(const std::filesystem::path&)>& write);
 
 /// An output folder that appears only when it is complete.
 ///

@@ -29,8 +29,8 @@ struct SyntheticOptions {
   std::uint64_t seed = 1;
   int bit_depth = 8;  ///< 8 or 16
   int samples = 4;    ///< Rays per pixel and axis, 1 … 16, where a pixel sees an edge; inside a
-                    ///< surface two are enough, because no texture is finer than three pixels.
-                    ///< Disparity is exact for the ray through the pixel centre.
+                      ///< surface two are enough, because no texture is finer than three pixels.
+                      ///< Disparity is exact for the ray through the pixel centre.
 
   void check() const;  ///< Throws Error(kInvalidArgument) naming the field and its value.
 };

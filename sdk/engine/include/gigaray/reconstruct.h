@@ -95,7 +95,7 @@ struct ScoreCurve {
   HypothesisRange hypotheses;
   float disparity = 0;   ///< Winner; NaN if none
   float confidence = 0;  ///< Best score minus mean score
-  /// Per view what it sees of the winner: encoded RGB in [0, 1] or NaN where it sees nothing.
+  /// Per view the pixel nearest to the winner's ray: encoded RGB in [0, 1]; NaN outside the picture.
   std::vector<Radiance> samples;
 };
 

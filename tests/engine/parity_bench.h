@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Gigaray authors
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <map>
+#include <memory>
+#include <random>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "gigaray/backend.h"
+#include "gigaray/samplers/any_sampler.h"
+#include "support/analytic_field.h"
+
+namespace gigaray::testing_support {
+
+/// How far two backends are apart.
+struct Difference {
+  double largest = 0;
+  long values = 0;
+  long one_sided = 0;  ///< A value on one side, NaN or none on the other.
+  long apart = 0;      ///< Beyond a tolerance, where few may be; see the test.
+
+  void add(double a, double b) {
+    ++values;
+    if (std::isnan(a) != std::isnan(b))
+      ++one_sided;
+    else if (!std::isnan(a))
+      largest = std::max(largest, std::abs(a - b));
+  }
+  void add(const Difference& other) {
+    largest = std::max(largest, other.largest);
+    values += other.values;
+    one_sided += other.one_sided;
+    apart += other.apart;
+  }
+};
+
+/// The largest differences per sampler and stage over all tests of this process.
+class ParityTable {
+ public:
+  static ParityTable& instance() {
+    static ParityTable table;
+    return table;
+  }
+  void add(const std::string& sampler, const std::string& stage, const Difference& difference) {
+    rows_[{stage, sampler}].add(difference);
+  }
+  void print() const {
+    std::printf("\n%-34s %-6s %12s %10s %8s\n", "stage: reference against OpenCL", "sampler",
+                "largest", "values", "apart");
+    for (const auto& [key, row] : rows_)
+      std::printf("%-34s %-6s %12.3g %10ld %8ld\n", key.first.c_str(), key.second.c_str(),
+                  row.largest, row.values, row.apart + row.one_sided);
+  }
+
+ private:
+  std::map<std::pair<std::string, std::string>, Difference> rows_;
+};
+
+/// Sizes and encoding of a band that both backends work on.
+struct ParityCase {
+  int width, height;
+  RowRange rows;  ///< what the steps work on; the band holds more where the picture has more
+  BandEncoding encoding = BandEncoding::kBits8;
+  int level = 0;
+};
+
+/// Odd sizes, just below, at and above multiples of the widest lanes, one row, bands in the middle.
+inline const std::vector<ParityCase>& parity_cases() {
+  static const std::vector<ParityCase> cases = {
+      {7, 5, {0, 5}},
+      {15, 11, {0, 11}, BandEncoding::kBits16},
+      {16, 3, {0, 3}, BandEncoding::kFloat, 2},
+      {17, 1, {0, 1}},
+      {33, 24, {11, 12}, BandEncoding::kFloat, 1},
+      {93, 31, {9, 16}, BandEncoding::kBits16},
+      {144, 37, {29, 37}},
+  };
+  return cases;
+}
+
+template <class S>
+struct ParityRig;
+template <>
+struct ParityRig<EpiSampler> {
+  static constexpr const char* kName = "Epi";
+  static constexpr LightFieldKind kKind = LightFieldKind::k3D;
+  static std::vector<View> regular() { return row_of_views(9); }
+  static std::vector<View> irregular() { return irregular_row(); }
+};
+template <>
+struct ParityRig<GridSampler> {
+  static constexpr const char* kName = "Grid";
+  static constexpr LightFieldKind kKind = LightFieldKind::k4D;
+  static std::vector<View> regular() { return grid_of_views(3, 3); }
+  static std::vector<View> irregular() { return irregular_grid(); }
+};
+
+/// Both backends over one band of smooth, random and flat content, and maps to call them with.
+template <RaySampler S>
+class ParityBench {
+ public:
+  ParityBench(const ParityCase& size, const DepthOptions& options,
+              const std::vector<View>& views = ParityRig<S>::irregular(),
+              const HypothesisRange& hypotheses = {-1.31, 1.73, 19})
+      : size_(size), hypotheses_(hypotheses), sampler_(views), random_(size.width) {
+    const BackendSetup setup{options, hypotheses_, ParityRig<S>::kKind,
+                             size.encoding == BandEncoding::kBits16 ? 16 : 8};
+    reference = make_reference_backend(sampler_, setup);
+    opencl = make_opencl_backend(sampler_, setup, "");
+    constexpr int kHalo = 12;  // more than any window reaches
+    loaded = sampler_.at_level(size.level)
+                 .rows_needed(grown(size.rows, kHalo, size.height), hypotheses_, size.height);
+    fill(views);
+    std::vector<int> active(sampler_.num_views());
+    for (int i = 0; i < int(active.size()); ++i) active[i] = int(active.size()) - 1 - i;
+    active.pop_back();  // one view keeps no estimates
+    active_count = int(active.size());
+    for (Backend* backend : {reference.get(), opencl.get()}) {
+      backend->set_active_views(active);
+      backend->begin_level({size.level, size.width, size.height});
+      backend->load_band(loaded, encoded_.data(), size.encoding);
+    }
+  }
+
+  int width() const { return size_.width; }
+  int height() const { return size_.height; }
+  RowRange rows() const { return size_.rows; }
+  /// The rows and `halo` more, clipped.
+  RowRange around(int halo) const { return grown(size_.rows, halo, size_.height); }
+  const HypothesisRange& hypotheses() const { return hypotheses_; }
+  const S& sampler() const { return sampler_; }
+  double uniform() { return double(random_()) / 4294967296.0; }
+
+  /// Most pixels; whole blocks are empty.
+  StripMap<std::uint8_t> random_todo(RowRange rows) {
+    StripMap<std::uint8_t> todo(width(), rows);
+    for (int v = rows.begin; v < rows.end; ++v)
+      for (int u = 0; u < width(); ++u)
+        todo.row(v)[u] = uniform() < 0.7 && !(u >= 32 && u < 64 && v % 3 == 0);
+    return todo;
+  }
+  StripMap<std::uint8_t> all_todo(RowRange rows) {
+    StripMap<std::uint8_t> todo(width(), rows);
+    for (int v = rows.begin; v < rows.end; ++v) std::fill_n(todo.row(v), width(), 1);
+    return todo;
+  }
+  StripMap<HypothesisBounds> full_bounds(RowRange rows) {
+    StripMap<HypothesisBounds> bounds(width(), rows);
+    for (int v = rows.begin; v < rows.end; ++v)
+      std::fill_n(bounds.row(v), width(),
+                  HypothesisBounds{0, std::uint16_t(hypotheses_.count - 1)});
+    return bounds;
+  }
+  /// Half of the pixels search a part of the range.
+  StripMap<HypothesisBounds> random_bounds(RowRange rows) {
+    StripMap<HypothesisBounds> bounds = full_bounds(rows);
+    for (int v = rows.begin; v < rows.end; ++v)
+      for (int u = 0; u < width(); ++u) {
+        if (uniform() < 0.5) continue;
+        const auto a = std::uint16_t(uniform() * hypotheses_.count);
+        const auto b = std::uint16_t(uniform() * hypotheses_.count);
+        bounds.row(v)[u] = {std::min(a, b), std::max(a, b)};
+      }
+    return bounds;
+  }
+  /// Hypotheses of the range, neighbours alike, with holes.
+  StripMap<float> random_disparity(RowRange rows, double share) {
+    StripMap<float> map(width(), rows);
+    for (int v = rows.begin; v < rows.end; ++v)
+      for (int u = 0; u < width(); ++u)
+        map.row(v)[u] = uniform() < share ? float(hypotheses_.min + uniform() * (hypotheses_.max -
+                                                                                  hypotheses_.min))
+                                          : kNoEstimate;
+    return map;
+  }
+  StripMap<float> random_values(RowRange rows) {
+    StripMap<float> map(width(), rows);
+    for (int v = rows.begin; v < rows.end; ++v)
+      for (int u = 0; u < width(); ++u) map.row(v)[u] = float(uniform());
+    return map;
+  }
+
+  std::unique_ptr<Backend> reference, opencl;
+  RowRange loaded;
+  int active_count = 0;
+
+ private:
+  void fill(const std::vector<View>& views) {
+    const WavePattern pattern(5);
+    const double most = size_.encoding == BandEncoding::kBits16 ? 65535 : 255;
+    const std::size_t value_bytes = size_.encoding == BandEncoding::kBits8    ? 1
+                                    : size_.encoding == BandEncoding::kBits16 ? 2
+                                                                              : 4;
+    const double scale = std::ldexp(1.0, size_.level);
+    encoded_.resize(std::size_t(loaded.size()) * views.size() * 3 * width() * value_bytes);
+    for (int v = loaded.begin; v < loaded.end; ++v)
+      for (int view = 0; view < int(views.size()); ++view)
+        for (int u = 0; u < width(); ++u)
+          for (int c = 0; c < 3; ++c) {
+            // A plane at disparity 0.6 with noise; stripes of it are random or flat.
+            double value = pattern(u * scale + views[view].s * 0.6, v * scale + views[view].t * 0.6, c) +
+                           0.01 * (uniform() - 0.5);
+            if (3 * u >= width() && 2 * u < width()) value = uniform();
+            if (3 * u >= 2 * width() && 6 * u < 5 * width()) value = 0.25 * (c + 1);
+            const std::size_t line = (std::size_t(v - loaded.begin) * views.size() + view) * 3 * width();
+            const std::size_t interleaved = line + 3 * u + c;
+            if (value_bytes == 1)
+              encoded_[interleaved] = std::uint8_t(std::lround(value * most));
+            else if (value_bytes == 2)
+              reinterpret_cast<std::uint16_t*>(encoded_.data())[interleaved] =
+                  std::uint16_t(std::lround(value * most));
+            else
+              reinterpret_cast<float*>(encoded_.data())[line + std::size_t(c) * width() + u] =
+                  float(value);
+          }
+  }
+
+  ParityCase size_;
+  HypothesisRange hypotheses_;
+  S sampler_;
+  std::mt19937 random_;
+  std::vector<std::uint8_t> encoded_;
+};
+
+}  // namespace gigaray::testing_support

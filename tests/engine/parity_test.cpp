@@ -1,0 +1,341 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Gigaray authors
+// Every step of the method on both backends over the same band. The last lines of
+//   gigaray_engine_tests --gtest_filter='Parity*'
+// are the table of the largest differences per stage and sampler.
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "engine/parity_bench.h"
+
+namespace gigaray::testing_support {
+namespace {
+
+// Rounding: values up to about 10 in single precision, sums of some dozen of them in another order.
+constexpr double kRounding = 4e-6;
+// A colour is off by some 1e-7; the kernel's slope is up to 2 / h with h = 0.02, so a score is off by
+// 1e-5, and mean-shift steps pass it on.
+constexpr double kScore = 1e-4;
+// density_score.cl: stopping early changes a score by less than 2 * MOVE_BOUND * ITERATIONS.
+constexpr double kEarlyStop = 2 * 1e-4 * 10;
+// Mean-shift amplifies rounding without bound where the samples pull both ways with equal force; that
+// happens for few rays, and only in random content.
+constexpr double kUnstableShare = 2e-3;
+
+template <class S>
+class Parity : public testing::Test {
+ protected:
+  static void TearDownTestSuite() { ParityTable::instance().print(); }
+
+  /// Notes the difference for the table and expects it within bounds.
+  void expect_within(const std::string& stage, const Difference& difference, double tolerance) {
+    ParityTable::instance().add(ParityRig<S>::kName, stage, difference);
+    this->RecordProperty(ParityRig<S>::kName + (": " + stage), std::to_string(difference.largest));
+    EXPECT_LE(difference.largest, tolerance) << stage;
+    EXPECT_EQ(difference.one_sided, 0) << stage << ": estimates on one side only";
+    EXPECT_LE(double(difference.apart), kUnstableShare * double(difference.values)) << stage;
+  }
+
+  static Difference compare(const StripMap<float>& a, const StripMap<float>& b, RowRange rows) {
+    Difference difference;
+    for (int v = rows.begin; v < rows.end; ++v)
+      for (int u = 0; u < a.width(); ++u) difference.add(a.row(v)[u], b.row(v)[u]);
+    return difference;
+  }
+  static Difference compare(const StripMap<Radiance>& a, const StripMap<Radiance>& b,
+                            const StripMap<float>& where, RowRange rows) {
+    Difference difference;
+    for (int v = rows.begin; v < rows.end; ++v)
+      for (int u = 0; u < a.width(); ++u) {
+        if (std::isnan(where.row(v)[u])) continue;
+        const Radiance &x = a.row(v)[u], &y = b.row(v)[u];
+        difference.add(x.r, y.r);
+        difference.add(x.g, y.g);
+        difference.add(x.b, y.b);
+      }
+    return difference;
+  }
+  /// Scores of all pixels to do, within their bounds. `unstable`: larger differences are counted.
+  static Difference compare_scores(ParityBench<S>& bench, RowRange rows,
+                                   const StripMap<std::uint8_t>& todo,
+                                   const StripMap<HypothesisBounds>& bounds, double unstable) {
+    Difference difference;
+    for (int v = rows.begin; v < rows.end; ++v)
+      for (int u = 0; u < bench.width(); ++u) {
+        if (!todo.row(v)[u]) continue;
+        const auto expected = bench.reference->scores_at(u, v);
+        const auto actual = bench.opencl->scores_at(u, v);
+        for (int i = bounds.row(v)[u].first; i <= bounds.row(v)[u].last; ++i) {
+          const bool untested = expected[i] < 0;
+          if (untested != (actual[i] < 0))
+            ++difference.one_sided;
+          else if (std::abs(expected[i] - actual[i]) > unstable)
+            ++difference.apart, ++difference.values;
+          else
+            difference.add(expected[i], actual[i]);
+        }
+      }
+    return difference;
+  }
+};
+
+using Samplers = testing::Types<EpiSampler, GridSampler>;
+TYPED_TEST_SUITE(Parity, Samplers);
+
+TYPED_TEST(Parity, UnpackedColours) {
+  // With a tiny bandwidth the mean radiance is the pixel's own colour.
+  for (const ParityCase& size : parity_cases())
+    for (const bool linear_rgb : {true, false}) {
+      DepthOptions options = paper_options();
+      options.score.linear_rgb = linear_rgb;
+      options.score.bandwidth = 1e-6f;
+      ParityBench<TypeParam> bench(size, options);
+      const StripMap<float> disparity(bench.width(), bench.rows());
+      StripMap<Radiance> expected(bench.width(), bench.rows()), actual = expected;
+      bench.reference->mean_radiance(2, bench.rows(), disparity, expected);
+      bench.opencl->mean_radiance(2, bench.rows(), disparity, actual);
+      this->expect_within("unpack colours", this->compare(expected, actual, disparity, bench.rows()),
+                          kRounding);
+    }
+}
+
+TYPED_TEST(Parity, EdgeConfidence) {
+  for (const ParityCase& size : parity_cases())
+    for (const bool squared : {true, false})
+      for (const int radius : {4, 1}) {
+        if (radius == 1 && !squared) continue;  // every program costs a second to build
+        DepthOptions options = paper_options();
+        options.edge.squared = squared;
+        options.edge.radius = radius;
+        ParityBench<TypeParam> bench(size, options);
+        StripMap<float> expected(bench.width(), bench.rows()), actual = expected;
+        bench.reference->edge_confidence(1, bench.rows(), expected);
+        bench.opencl->edge_confidence(1, bench.rows(), actual);
+        this->expect_within(squared ? "edge confidence, squared" : "edge confidence, plain",
+                            this->compare(expected, actual, bench.rows()), kRounding);
+      }
+}
+
+TYPED_TEST(Parity, PaperScores) {
+  struct Variant {
+    const char* stage;
+    int iterations;
+    bool stop_early;
+    double tolerance;
+  };
+  const Variant variants[] = {{"score, paper, no mean-shift", 0, true, kScore},
+                              {"score, paper, 2 iterations", 2, false, kScore},
+                              {"score, paper, 10 iterations", 10, false, kScore},
+                              {"score, paper, 10, early stop", 10, true, kEarlyStop}};
+  for (const Variant& variant : variants)
+    for (const ParityCase& size : parity_cases()) {
+      DepthOptions options = paper_options();
+      options.score.mean_shift_iterations = variant.iterations;
+      options.score.stop_early = variant.stop_early;
+      ParityBench<TypeParam> bench(size, options);
+      const auto todo = bench.random_todo(bench.rows());
+      const auto bounds = bench.random_bounds(bench.rows());
+      bench.reference->density_score(3, bench.rows(), todo, bounds);
+      bench.opencl->density_score(3, bench.rows(), todo, bounds);
+      this->expect_within(variant.stage,
+                          this->compare_scores(bench, bench.rows(), todo, bounds, variant.tolerance),
+                          variant.tolerance);
+    }
+}
+
+TYPED_TEST(Parity, AutoScores) {
+  struct Variant {
+    const char* stage;
+    bool cubic;
+    float gradient_share;
+  };
+  const Variant variants[] = {{"score, auto", true, 0.7f},
+                              {"score, auto, linear taps", false, 0.7f},
+                              {"score, gradient alone", true, 1.0f}};
+  for (const Variant& variant : variants)
+    for (const ParityCase& size : parity_cases()) {
+      DepthOptions options = auto_options();
+      options.score.cubic = variant.cubic;
+      options.score.gradient_share = variant.gradient_share;
+      options.score.gradient_bandwidth = 0.02f;
+      options.score.min_views = 0.4f;
+      ParityBench<TypeParam> bench(size, options);
+      const auto todo = bench.random_todo(bench.rows());
+      const auto bounds = bench.random_bounds(bench.rows());
+      bench.reference->density_score(3, bench.rows(), todo, bounds);
+      bench.opencl->density_score(3, bench.rows(), todo, bounds);
+      this->expect_within(variant.stage,
+                          this->compare_scores(bench, bench.rows(), todo, bounds, 1), kScore);
+    }
+}
+
+TYPED_TEST(Parity, RegularRigs) {
+  // Shifts of whole and half pixels, exact or off by rounding, up to the edges of the picture.
+  for (const ParityCase& size : parity_cases())
+    for (const HypothesisRange& hypotheses : {HypothesisRange{-1, 1, 17}, HypothesisRange{-1, 1, 21}})
+      for (const DepthOptions& preset : {paper_options(), auto_options()}) {
+        DepthOptions options = preset;
+        options.score.stop_early = false;
+        options.score.gradient_bandwidth = 0.02f;
+        ParityBench<TypeParam> bench(size, options, ParityRig<TypeParam>::regular(), hypotheses);
+        const auto todo = bench.all_todo(bench.rows());
+        const auto bounds = bench.full_bounds(bench.rows());
+        bench.reference->density_score(1, bench.rows(), todo, bounds);
+        bench.opencl->density_score(1, bench.rows(), todo, bounds);
+        this->expect_within("score, regular rig, " + preset.preset,
+                            this->compare_scores(bench, bench.rows(), todo, bounds, kScore), kScore);
+      }
+}
+
+TYPED_TEST(Parity, SupportedScores) {
+  for (const ParityCase& size : parity_cases())
+    for (const int radius : {1, 4}) {
+      DepthOptions options = auto_options();
+      options.support.radius = radius;
+      options.support.sigma_colour = 0.1f;
+      ParityBench<TypeParam> bench(size, options);
+      const RowRange around = bench.around(radius);
+      const auto all = bench.all_todo(around);
+      const auto full = bench.full_bounds(around);
+      const auto todo = bench.random_todo(bench.rows());
+      const auto bounds = bench.random_bounds(bench.rows());
+      for (Backend* backend : {bench.reference.get(), bench.opencl.get()}) {
+        backend->density_score(0, around, all, full);
+        backend->score_support(0, bench.rows(), todo, bounds);
+      }
+      this->expect_within("score support",
+                          this->compare_scores(bench, bench.rows(), todo, bounds, 1), kScore);
+    }
+}
+
+TYPED_TEST(Parity, Winners) {
+  for (const ParityCase& size : parity_cases())
+    for (const bool refine : {false, true}) {
+      DepthOptions options = auto_options();
+      options.winner.refine = refine;
+      options.score.bandwidth = 0.1f;
+      options.score.gradient_bandwidth = 0.05f;
+      ParityBench<TypeParam> bench(size, options);
+      const RowRange rows = bench.rows();
+      const auto todo = bench.random_todo(rows);
+      const auto bounds = bench.random_bounds(rows);
+      StripMap<float> expected(bench.width(), rows), actual = expected;
+      StripMap<float> expected_lead = expected, actual_lead = expected;
+      bench.reference->density_score(3, rows, todo, bounds);
+      bench.reference->winner(rows, todo, bounds, expected, expected_lead);
+      bench.opencl->density_score(3, rows, todo, bounds);
+      bench.opencl->winner(rows, todo, bounds, actual, actual_lead);
+
+      // Two hypotheses that score alike, or three on a flat top, are told apart by rounding: the
+      // winners may differ then, their scores may not.
+      const HypothesisRange& hypotheses = bench.hypotheses();
+      Difference difference;
+      for (int v = rows.begin; v < rows.end; ++v)
+        for (int u = 0; u < bench.width(); ++u) {
+          const float a = expected.row(v)[u], b = actual.row(v)[u];
+          const double tolerance = refine ? 1e-2 * hypotheses.step() : kRounding;
+          if (std::isnan(a) || std::isnan(b) || std::abs(a - b) <= tolerance) {
+            difference.add(a, b);
+            continue;
+          }
+          ++difference.values;
+          ++difference.apart;
+          const auto scores = bench.reference->scores_at(u, v);
+          const auto score_near = [&](float h) {
+            const int i = int(std::lround((h - hypotheses.min) / hypotheses.step()));
+            float best = scores[i];
+            if (refine)
+              best = std::max({best, scores[std::max(i - 1, 0)],
+                               scores[std::min(i + 1, hypotheses.count - 1)]});
+            return best;
+          };
+          EXPECT_NEAR(score_near(a), score_near(b), kScore) << "at " << u << ", " << v;
+        }
+      ParityTable::instance().add(ParityRig<TypeParam>::kName,
+                                  refine ? "winner, refined" : "winner", difference);
+      EXPECT_EQ(difference.one_sided, 0);
+      EXPECT_LT(4 * difference.apart, difference.values) << "the flat stripe is a sixth";
+      this->expect_within("winner, contrast", this->compare(expected_lead, actual_lead, rows), kScore);
+    }
+}
+
+TYPED_TEST(Parity, BilateralMedian) {
+  for (const ParityCase& size : parity_cases())
+    for (const int radius : {1, 2, 5})
+      for (const float tolerance : {0.1f, std::numeric_limits<float>::infinity()}) {
+        if ((radius == 1) != std::isinf(tolerance) && radius != 2) continue;  // as in the presets
+        ParityBench<TypeParam> bench(size, paper_options());
+        const auto in = bench.random_disparity(bench.around(radius), 0.6);
+        StripMap<float> expected(bench.width(), bench.rows()), actual = expected;
+        bench.reference->bilateral_median(2, bench.rows(), radius, tolerance, in, expected);
+        bench.opencl->bilateral_median(2, bench.rows(), radius, tolerance, in, actual);
+        // A median picks a value: nothing is rounded.
+        this->expect_within(std::isinf(tolerance) ? "median, plain" : "median, bilateral",
+                            this->compare(expected, actual, bench.rows()), 0);
+      }
+}
+
+TYPED_TEST(Parity, MeanRadiance) {
+  for (const ParityCase& size : parity_cases())
+    for (const DepthOptions& preset : {paper_options(), auto_options()}) {
+      DepthOptions options = preset;
+      options.score.bandwidth = 0.1f;
+      ParityBench<TypeParam> bench(size, options);
+      const auto disparity = bench.random_disparity(bench.rows(), 0.8);
+      StripMap<Radiance> expected(bench.width(), bench.rows()), actual = expected;
+      bench.reference->mean_radiance(4, bench.rows(), disparity, expected);
+      bench.opencl->mean_radiance(4, bench.rows(), disparity, actual);
+      this->expect_within("mean radiance, " + preset.preset,
+                          this->compare(expected, actual, disparity, bench.rows()), kScore);
+    }
+}
+
+TYPED_TEST(Parity, Propagation) {
+  for (const ParityCase& size : parity_cases()) {
+    ParityBench<TypeParam> bench(size, paper_options());
+    const RowRange reached = bench.sampler().at_level(size.level).rows_needed(
+        bench.rows(), bench.hypotheses(), bench.height());
+    std::vector<PackedEstimate> expected(std::size_t(reached.size()) * bench.active_count *
+                                         bench.width());
+    // Some estimates are there already.
+    for (PackedEstimate& estimate : expected)
+      if (bench.uniform() < 0.2) estimate = pack_estimate(float(bench.uniform() - 0.5), 0.5f);
+    auto actual = expected;
+    for (const int ref : {4, 0}) {
+      const auto disparity = bench.random_disparity(bench.rows(), 0.9);
+      const auto confidence = bench.random_values(bench.rows());
+      StripMap<Radiance> radiance(bench.width(), bench.rows());
+      bench.reference->mean_radiance(ref, bench.rows(), disparity, radiance);
+      bench.reference->propagation(ref, bench.rows(), disparity, confidence, radiance, reached,
+                                   expected.data());
+      bench.opencl->propagation(ref, bench.rows(), disparity, confidence, radiance, reached,
+                                actual.data());
+    }
+    Difference hypothesis, confidence;
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+      hypothesis.add(hypothesis_of(expected[i]), hypothesis_of(actual[i]));
+      confidence.add(confidence_of(expected[i]), confidence_of(actual[i]));
+    }
+    this->expect_within("propagation, hypothesis", hypothesis, 0);
+    this->expect_within("propagation, confidence", confidence, 0);
+  }
+}
+
+TYPED_TEST(Parity, Downsampling) {
+  for (const ParityCase& size : parity_cases()) {
+    ParityBench<TypeParam> bench(size, paper_options());
+    const RowRange small{(bench.rows().begin + 1) / 2, (bench.rows().end + 1) / 2};
+    std::vector<float> expected(std::size_t(small.size()) * bench.sampler().num_views() * 3 *
+                                ((bench.width() + 1) / 2));
+    auto actual = expected;
+    bench.reference->downsample(small, expected.data());
+    bench.opencl->downsample(small, actual.data());
+    Difference difference;
+    for (std::size_t i = 0; i < expected.size(); ++i) difference.add(expected[i], actual[i]);
+    this->expect_within("downsampling", difference, kRounding);
+  }
+}
+
+}  // namespace
+}  // namespace gigaray::testing_support
