@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <signal.h>
 #include <sys/ioctl.h>
+#include <time.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -18,17 +19,34 @@ namespace {
 constexpr int kBarWidth = 24;
 constexpr auto kRedraw = std::chrono::milliseconds(100);
 
-std::atomic<RunControl*> running{nullptr};
+// Programs that pass Ctrl-C on send it to the process and to its group: that is one wish.
+constexpr long kSameWishMs = 500;
 
-extern "C" void cancel_on_signal(int) {
-  if (RunControl* control = running.load()) control->cancel();
+std::atomic<RunControl*> running{nullptr};
+volatile sig_atomic_t signalled = 0;
+timespec first_signal = {};
+
+extern "C" void on_signal(int signal) {
+  timespec now = {};
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  if (!signalled) {
+    signalled = 1;
+    first_signal = now;
+    if (RunControl* control = running.load()) control->cancel();
+    return;
+  }
+  const long elapsed_ms =
+      (now.tv_sec - first_signal.tv_sec) * 1000 + (now.tv_nsec - first_signal.tv_nsec) / 1000000;
+  if (elapsed_ms < kSameWishMs) return;
+  // The default action ends the program as soon as this handler returns.
+  ::signal(signal, SIG_DFL);
+  raise(signal);
 }
 
-// SA_RESETHAND: the second signal finds the default handler and ends the program.
 void install_handlers(void (*handler)(int)) {
   struct sigaction action = {};
   action.sa_handler = handler;
-  action.sa_flags = int(SA_RESETHAND);
+  action.sa_flags = SA_RESTART;  // files being written are not disturbed
   sigemptyset(&action.sa_mask);
   for (const int signal : {SIGINT, SIGTERM}) sigaction(signal, &action, nullptr);
 }
@@ -53,7 +71,7 @@ Console::Console(RunControl& control) : is_terminal_(isatty(STDERR_FILENO) != 0)
     show_progress(stage, done, total);
   };
   control.on_message = [this](const std::string& text) { show_message(text); };
-  install_handlers(cancel_on_signal);
+  install_handlers(on_signal);
 }
 
 Console::~Console() {

@@ -16,7 +16,8 @@
 namespace gigaray::cli {
 namespace {
 
-constexpr int kMaxDrawn = 64;  // views per axis of the drawn grid
+constexpr int kMaxDrawn = 64;      // views per axis of the drawn grid
+constexpr double kMaxShift = 0.3;  // view steps from a point of the grid
 
 using nlohmann::ordered_json;
 
@@ -50,7 +51,11 @@ std::vector<std::string> drawn_grid(const LightField& light_field) {
   const int centre = centre_view(light_field);
   for (int i = 0; i < light_field.num_views(); ++i) {
     const View& view = light_field.views[i];
-    char& cell = grid[std::lround(view.t - t.min)][2 * std::lround(view.s - s.min)];
+    const double column = view.s - s.min, row = view.t - t.min;
+    if (std::abs(column - std::round(column)) > kMaxShift ||
+        std::abs(row - std::round(row)) > kMaxShift)
+      return {};
+    char& cell = grid[std::lround(row)][2 * std::lround(column)];
     if (cell != '.') return {};
     cell = i == centre ? 'O' : 'x';
   }

@@ -4,8 +4,10 @@
 // The program gigaray: a table of commands, one of which is run.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <exception>
+#include <iterator>
 #include <new>
 #include <string>
 
@@ -86,6 +88,14 @@ int main(int argc, char** argv) {
       chosen = name;
       what = run_it;
     });
+  }
+  const auto is_named = [&](const Command& command) {
+    return argv[1] == std::string(command.name);
+  };
+  if (argc > 1 && argv[1][0] != '-' &&
+      std::none_of(std::begin(kCommands), std::end(kCommands), is_named)) {
+    fmt::print(stderr, "gigaray: there is no command '{}' (see gigaray --help)\n", argv[1]);
+    return kWrongUsage;
   }
   try {
     program.parse(argc, argv);

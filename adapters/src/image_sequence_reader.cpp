@@ -68,19 +68,19 @@ struct Series {
 // changes.
 Series series_of(const fs::path& input, const std::vector<fs::path>& pictures) {
   std::map<std::string, std::vector<Numbered>> groups;
-  for (Numbered& picture : in_order(pictures)) groups[picture.pattern].push_back(picture);
-  const auto smaller = [](const auto& a, const auto& b) {
-    return a.second.size() < b.second.size();
-  };
-  const auto largest = std::max_element(groups.begin(), groups.end(), smaller);
+  for (Numbered& picture : in_order(pictures))
+    if (!picture.numbers.empty()) groups[picture.pattern].push_back(picture);
+  if (groups.empty())
+    bad(input, "the pictures have no numbers in their names; state their places with --positions");
+  const auto largest = std::max_element(
+      groups.begin(), groups.end(),
+      [](const auto& a, const auto& b) { return a.second.size() < b.second.size(); });
   const std::vector<Numbered>& group = largest->second;
   const std::string first = group.front().path.filename().string();
   for (const auto& [pattern, other] : groups)
     if (pattern != largest->first && 2 * other.size() > group.size())
       bad(input, "holds more than one series of pictures, " + first + " … and " +
                      other.front().path.filename().string() + " …; keep one per folder");
-  if (group.front().numbers.empty())
-    bad(input, "the pictures have no numbers in their names; state their places with --positions");
 
   std::set<std::size_t> changing;
   for (const Numbered& picture : group)

@@ -68,7 +68,8 @@ Image<std::uint16_t> decode(const fs::path& path, PictureSpec& spec) {
     image = image.extract_band(0, vips::VImage::option()->set("n", spec.is_grey ? 1 : 3));
     // Turning reads rows in another order than the file has them: decode first.
     image = image.cast(VIPS_FORMAT_USHORT).copy_memory().autorot();
-    if (spec.is_grey) image = image.bandjoin({image, image});
+    if (spec.is_grey) image = vips::VImage::bandjoin({image, image, image});
+    GIGARAY_CHECK(image.bands() == 3);
 
     Image<std::uint16_t> picture(image.width(), image.height(), 3);
     image.write(

@@ -7,6 +7,7 @@
 #include <optional>
 #include <sstream>
 #include <string>
+#include <utility>
 
 #include "gigaray/error.h"
 #include "text.h"
@@ -82,6 +83,7 @@ std::vector<CameraPosition> read_positions(const std::filesystem::path& path,
     index_of[pictures[i].filename().string()] = i;
   }
   std::vector<std::optional<CameraPosition>> found(pictures.size());
+  std::map<std::pair<double, double>, int> line_at;
   for (std::size_t i = 0; i < lines.size(); ++i) {
     const Line& line = lines[i];
     if (line.name.empty() != lines.front().name.empty())
@@ -93,6 +95,10 @@ std::vector<CameraPosition> read_positions(const std::filesystem::path& path,
       picture = match->second;
     }
     if (found[picture]) parser.bad(line.number, line.name + " has two positions");
+    const auto [other, is_new] =
+        line_at.emplace(std::pair(line.position.right, line.position.down), line.number);
+    if (!is_new)
+      parser.bad(line.number, "the same position as line " + std::to_string(other->second));
     found[picture] = line.position;
   }
   std::vector<CameraPosition> positions;

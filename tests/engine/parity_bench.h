@@ -228,4 +228,48 @@ class ParityBench {
   std::vector<std::uint8_t> encoded_;
 };
 
+inline Difference compare(const StripMap<float>& a, const StripMap<float>& b, RowRange rows) {
+  Difference difference;
+  for (int v = rows.begin; v < rows.end; ++v)
+    for (int u = 0; u < a.width(); ++u) difference.add(a.row(v)[u], b.row(v)[u]);
+  return difference;
+}
+inline Difference compare(const StripMap<Radiance>& a, const StripMap<Radiance>& b,
+                          const StripMap<float>& where, RowRange rows) {
+  Difference difference;
+  for (int v = rows.begin; v < rows.end; ++v)
+    for (int u = 0; u < a.width(); ++u) {
+      if (std::isnan(where.row(v)[u])) continue;
+      const Radiance &x = a.row(v)[u], &y = b.row(v)[u];
+      difference.add(x.r, y.r);
+      difference.add(x.g, y.g);
+      difference.add(x.b, y.b);
+    }
+  return difference;
+}
+/// Scores of all pixels to do, within their bounds. `unstable`: larger differences are counted.
+template <RaySampler S>
+Difference compare_scores(ParityBench<S>& bench, RowRange rows,
+                                 const StripMap<std::uint8_t>& todo,
+                                 const StripMap<HypothesisBounds>& bounds, double unstable) {
+  Difference difference;
+  for (int v = rows.begin; v < rows.end; ++v)
+    // Scores are fetched one by one: of wide pictures every third pixel, which meets every lane.
+    for (int u = 0; u < bench.width(); u += bench.width() > 64 ? 3 : 1) {
+      if (!todo.row(v)[u]) continue;
+      const auto expected = bench.reference->scores_at(u, v);
+      const auto actual = bench.opencl->scores_at(u, v);
+      for (int i = bounds.row(v)[u].first; i <= bounds.row(v)[u].last; ++i) {
+        const bool untested = expected[i] < 0;
+        if (untested != (actual[i] < 0))
+          ++difference.one_sided;
+        else if (std::abs(expected[i] - actual[i]) > unstable)
+          ++difference.apart, ++difference.values;
+        else
+          difference.add(expected[i], actual[i]);
+      }
+    }
+  return difference;
+}
+
 }  // namespace gigaray::testing_support

@@ -59,6 +59,9 @@ DepthOptions paper_options() {
   DepthOptions options;
   options.preset = "paper";
   options.hypotheses = 256;
+  // Eq. 2 with plain distances and no discard by eq. 7: the reading that works, docs/accuracy.md.
+  options.edge.squared = false;
+  options.winner.min_confidence = 0;
   return options;
 }
 
@@ -77,6 +80,8 @@ DepthOptions auto_options() {
   options.winner.refine = true;
   options.winner.median_radius = 2;
   options.winner.weigh_by_edge = false;
+  // A flat score curve knows nothing: its pixel is left to coarser levels.
+  options.winner.min_confidence = 0.02f;
   return options;
 }
 

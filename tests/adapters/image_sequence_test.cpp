@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Gigaray authors
+#include "adapters/adapters_test.h"
+
+namespace gigaray {
+namespace {
+
+class ImageSequence : public AdaptersTest {
+ protected:
+  void save_numbered(int from, int to) const {
+    for (int i = from; i <= to; ++i) save("view" + std::to_string(i) + ".png");
+  }
+  LightField open(Travel direction = Travel::kAuto) const {
+    return open_light_field(folder, {"", direction});
+  }
+  LightField open_at(const std::string& positions) const {
+    write("places.txt", positions);
+    return open_light_field(folder, {folder / "places.txt", Travel::kAuto});
+  }
+  void expect_bad_positions(const std::string& positions, const std::string& word) const {
+    write("places.txt", positions);
+    expect_bad_input(word, {folder / "places.txt", Travel::kAuto});
+    expect_bad_input("places.txt", {folder / "places.txt", Travel::kAuto});
+  }
+  static bool has_note(const LightField& light_field, const std::string& word) {
+    for (const std::string& note : light_field.notes)
+      if (note.find(word) != std::string::npos) return true;
+    return false;
+  }
+};
+
+TEST_F(ImageSequence, NumbersAreSortedAsNumbers) {
+  save_numbered(8, 12);
+  const LightField light_field = open();
+  ASSERT_EQ(light_field.num_views(), 5);
+  EXPECT_EQ(light_field.views[0].name, "view8");
+  EXPECT_EQ(light_field.views[4].name, "view12");
+  EXPECT_EQ(light_field.kind, LightFieldKind::k3D);
+  EXPECT_EQ(light_field.width, kWidth);
+  EXPECT_EQ(light_field.height, kHeight);
+  EXPECT_EQ(light_field.format, "image sequence");
+}
+
+TEST_F(ImageSequence, PixelsComeFromTheViewOfTheName) {
+  for (int i = 9; i <= 11; ++i)
+    save("v" + std::to_string(i) + ".png", picture() + cv::Scalar::all(i));
+  const LightField light_field = open();
+  const cv::Mat expected = picture() + cv::Scalar::all(10);
+  EXPECT_EQ(light_field.pixels->read(1)(3, 2, 0), expected.at<cv::Vec3b>(2, 3)[2]);
+  EXPECT_EQ(light_field.pixels->bit_depth(), 8);
+}
+
+TEST_F(ImageSequence, CameraIsAssumedToMoveRight) {
+  save_numbered(1, 3);
+  const LightField light_field = open();
+  EXPECT_EQ(light_field.views[0].s, -1);
+  EXPECT_EQ(light_field.views[1].s, 0);
+  EXPECT_EQ(light_field.views[2].s, 1);
+  EXPECT_TRUE(light_field.sign_is_assumed);
+  EXPECT_TRUE(has_note(light_field, "right"));
+}
+
+TEST_F(ImageSequence, StatedDirectionIsNoAssumption) {
+  save_numbered(1, 4);
+  EXPECT_EQ(open(Travel::kRight).views[0].s, -1.5);
+  const LightField left = open(Travel::kLeft);
+  EXPECT_EQ(left.views[0].s, 1.5);
+  EXPECT_FALSE(left.sign_is_assumed);
+}
+
+TEST_F(ImageSequence, ConstantNumbersDoNotCount) {
+  save("scan2_step10_cam7.png");
+  save("scan2_step5_cam7.png");
+  const LightField light_field = open();
+  EXPECT_EQ(light_field.views[0].name, "scan2_step5_cam7");
+}
+
+TEST_F(ImageSequence, EveryFifthNumberIsOneStep) {
+  for (const std::string number : {"005", "010", "015"}) save("v" + number + ".png");
+  EXPECT_EQ(open().views[2].s, 1);
+}
+
+TEST_F(ImageSequence, GapsInTheNumbersAreGapsInSpace) {
+  for (const std::string number : {"1", "2", "3", "6", "7"}) save("v" + number + ".png");
+  const LightField light_field = open();
+  EXPECT_EQ(light_field.views[3].s - light_field.views[2].s, 3);
+  EXPECT_EQ(light_field.views.front().s, -light_field.views.back().s);
+  EXPECT_TRUE(has_note(light_field, "missing"));
+}
+
+TEST_F(ImageSequence, TimesAreNotPlaces) {
+  for (const std::string time : {"120001", "120013", "120020"}) save("v" + time + ".png");
+  const LightField light_field = open();
+  EXPECT_EQ(light_field.views[1].s, 0);
+  EXPECT_TRUE(has_note(light_field, "irregular"));
+}
+
+TEST_F(ImageSequence, WhatIsNoViewIsIgnored) {
+  save_numbered(1, 3);
+  save("thumbnail.png");
+  save("depth/disparity1.png");
+  write("notes1.txt", "x");
+  write(".view4.png", "x");
+  const LightField light_field = open();
+  EXPECT_EQ(light_field.num_views(), 3);
+  EXPECT_TRUE(has_note(light_field, "left out"));
+}
+
+TEST_F(ImageSequence, SixteenBitGreyAndAlphaAreNoted) {
+  save("v1.png", picture(CV_16UC1));
+  save("v2.png", picture(CV_8UC4));
+  const LightField light_field = open();
+  EXPECT_EQ(light_field.pixels->bit_depth(), 16);
+  EXPECT_TRUE(has_note(light_field, "grey"));
+  EXPECT_TRUE(has_note(light_field, "alpha"));
+  EXPECT_TRUE(has_note(light_field, "16 bit"));
+  const auto grey = light_field.pixels->read(0);
+  EXPECT_EQ(grey(4, 3, 0), picture(CV_16UC1).at<std::uint16_t>(3, 4));
+  EXPECT_EQ(grey(4, 3, 2), grey(4, 3, 0));
+  EXPECT_EQ(light_field.pixels->read(1)(4, 3, 2), 257 * picture(CV_8UC4).at<cv::Vec4b>(3, 4)[0]);
+}
+
+TEST_F(ImageSequence, PositionsAreNormalised) {
+  save_numbered(1, 4);
+  const LightField light_field = open_at("# millimetres\n100\n+110.0\n120, 0\n\n140 # far\n");
+  EXPECT_EQ(light_field.kind, LightFieldKind::k3D);
+  EXPECT_EQ(light_field.views[0].s, -2);
+  EXPECT_EQ(light_field.views[1].s, -1);
+  EXPECT_EQ(light_field.views[3].s, 2);
+  EXPECT_EQ(light_field.rig.baseline, 10);
+  EXPECT_FALSE(light_field.sign_is_assumed);
+}
+
+TEST_F(ImageSequence, NamedPositionsMakeAGridOfAnyNames) {
+  for (const std::string name : {"a", "b", "c", "d"}) save(name + ".png");
+  const LightField light_field = open_at("d 2 2\nb.png 2 0\na 0 0\nc 0 2\n");
+  EXPECT_EQ(light_field.kind, LightFieldKind::k4D);
+  EXPECT_EQ(light_field.views[1].name, "b");
+  EXPECT_EQ(light_field.views[1].s, 0.5);
+  EXPECT_EQ(light_field.views[1].t, -0.5);
+}
+
+TEST_F(ImageSequence, PositionsDoNotDependOnTheLocale) {
+  const CommaLocale locale;
+  save_numbered(1, 3);
+  EXPECT_EQ(open_at("0.5\n1.0\n1.5\n").rig.baseline, 0.5);
+}
+
+TEST_F(ImageSequence, BadPositionsNameTheFile) {
+  save_numbered(1, 3);
+  expect_bad_positions("1\n2\n", "2 positions for 3 pictures");
+  expect_bad_positions("1\n2\n3\n4\n", "4 positions for 3 pictures");
+  expect_bad_positions("1\nnan\n3\n", "places.txt:2");
+  expect_bad_positions("1\ninf\n3\n", "finite");
+  expect_bad_positions("1\n2x\n3\n", "places.txt:2");
+  expect_bad_positions("1 2 3 4\n2\n3\n", "places.txt:1");
+  expect_bad_positions("view1 1\nview2 2\nview9 3\n", "view9");
+  expect_bad_positions("view1 1\nview2 2\nview2 3\n", "view2");
+  expect_bad_positions("view1 1\n2\n3\n", "name");
+  expect_bad_positions("1\n2\n2\n", "places.txt:3: the same position as line 2");
+  expect_error(ErrorCode::kIo, "none.txt", [&] {
+    open_light_field(folder, {folder / "none.txt", Travel::kAuto});
+  });
+  expect_error(ErrorCode::kInvalidArgument, "--direction", [&] {
+    open_light_field(folder, {folder / "none.txt", Travel::kLeft});
+  });
+}
+
+TEST_F(ImageSequence, FolderWithoutALightFieldIsNamed) {
+  expect_bad_input("no pictures");
+  expect_bad_input(folder.string());
+  save("deep/v1.png");
+  expect_bad_input("no pictures");
+  save("v1.png");
+  expect_bad_input("only one picture, v1.png");
+  expect_error(ErrorCode::kBadInput, "one picture", [&] { open_light_field(folder / "v1.png"); });
+  expect_error(ErrorCode::kBadInput, "nowhere", [&] { open_light_field(folder / "nowhere"); });
+}
+
+TEST_F(ImageSequence, UnclearNamesAreRefused) {
+  save("left.png");
+  save("right.png");
+  expect_bad_input("--positions");
+  save("a1.jpg");
+  save("a2.jpg");
+  save("a3.jpg");
+  save("b1.jpg");
+  save("b2.jpg");
+  expect_bad_input("more than one series");
+}
+
+TEST_F(ImageSequence, TwoChangingNumbersAreRefused) {
+  save("v1_1.png");
+  save("v1_2.png");
+  save("v2_1.png");
+  expect_bad_input("more than one number");
+}
+
+TEST_F(ImageSequence, SameNumberTwiceIsRefused) {
+  save_numbered(1, 2);
+  save("view01.png");
+  expect_bad_input("same number");
+}
+
+TEST_F(ImageSequence, MixedSizesNameTheFile) {
+  save_numbered(1, 2);
+  save("view3.png", picture(CV_8UC3, kWidth + 1));
+  expect_bad_input("view3.png");
+  expect_bad_input("24×17");
+}
+
+TEST_F(ImageSequence, PictureThatIsNoneIsNamed) {
+  save_numbered(1, 2);
+  write("view3.png", "no picture");
+  expect_bad_input("view3.png");
+}
+
+TEST_F(ImageSequence, PictureThatIsCutShortIsNamedWhenItIsRead) {
+  save_numbered(1, 3);
+  cut_short("view2.png", 0.6);
+  const LightField light_field = open();
+  EXPECT_NO_THROW(light_field.pixels->read(0));
+  expect_error(ErrorCode::kBadInput, "view2.png", [&] { light_field.pixels->read(1); });
+}
+
+TEST_F(ImageSequence, PictureThatChangesLaterIsNoticed) {
+  save_numbered(1, 3);
+  const LightField light_field = open();
+  light_field.pixels->read(1);
+  save("view2.png", picture(CV_8UC3, kWidth, kHeight + 2));
+  expect_error(ErrorCode::kBadInput, "view2.png", [&] { light_field.pixels->read(1); });
+}
+
+TEST_F(ImageSequence, FloatingPointPicturesAreRefused) {
+  save("v1.tif", cv::Mat(3, 5, CV_32FC3, cv::Scalar(1, 2, 3)));
+  save("v2.tif", cv::Mat(3, 5, CV_32FC3, cv::Scalar(1, 2, 3)));
+  expect_bad_input("8 or 16 bit");
+}
+
+}  // namespace
+}  // namespace gigaray

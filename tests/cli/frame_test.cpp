@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Gigaray authors
+//
+// What all commands share: help, exit codes, one line per failure, Ctrl-C. And `info`.
+#include <signal.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "cli/program_test.h"
+#include "gigaray/adapters/pictures.h"
+
+namespace gigaray {
+namespace {
+
+class Frame : public ProgramTest {};
+
+class Info : public ProgramTest {
+ protected:
+  void save(const std::string& name, int width = 9, int height = 7) const {
+    std::filesystem::create_directories((folder / name).parent_path());
+    write_png(folder / name, Image<std::uint16_t>(width, height, 3, 77), 8);
+  }
+};
+
+TEST_F(Frame, HelpListsTheCommands) {
+  const Result result = run("--help");
+  EXPECT_EQ(result.exit_code, 0);
+  for (const std::string command : {"info", "depth", "synth", "evaluate", "devices"})
+    EXPECT_NE(result.out.find("  " + command), std::string::npos) << result.out;
+  EXPECT_EQ(result.err, "");
+}
+
+TEST_F(Frame, EveryCommandHasHelp) {
+  for (const std::string command : {"info", "depth", "synth", "evaluate", "devices"}) {
+    const Result result = run(command + " --help");
+    EXPECT_EQ(result.exit_code, 0) << command;
+    EXPECT_NE(result.out.find("Usage: gigaray " + command), std::string::npos) << result.out;
+  }
+}
+
+TEST_F(Frame, VersionIsPrinted) {
+  const Result result = run("--version");
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_TRUE(result.out.starts_with("gigaray 0.")) << result.out;
+}
+
+TEST_F(Frame, WrongUsageEndsWithTwo) {
+  expect_failure("", 2, "gigaray:", "--help");
+  expect_failure("nonsense", 2, "nonsense", "gigaray --help");
+  expect_failure("info", 2, "gigaray info:", "INPUT");
+  expect_failure("info . --nonsense", 2, "--nonsense", "gigaray info --help");
+  expect_failure("info . --direction up", 2, "--direction", "up");
+}
+
+TEST_F(Frame, ResultThatCannotBePrintedIsAFailure) {
+  if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full on this system";
+  for (int i = 1; i <= 2; ++i)
+    write_png(folder / ("v" + std::to_string(i) + ".png"), Image<std::uint16_t>(9, 7, 3), 8);
+  const int status = std::system(
+      ("cd '" + folder.string() + "' && '" + GIGARAY_PROGRAM + "' info . >/dev/full 2>.err")
+          .c_str());
+  EXPECT_EQ(WEXITSTATUS(status), 1);
+  EXPECT_NE(text_of(".err").find("gigaray info:"), std::string::npos);
+}
+
+TEST_F(Frame, InterruptLeavesNothingBehind) {
+  using namespace std::chrono_literals;
+  std::filesystem::create_directory(folder / "work");
+  const pid_t child = fork();
+  ASSERT_GE(child, 0);
+  if (child == 0) {
+    const bool moved = chdir((folder / "work").c_str()) == 0;
+    if (moved && std::freopen("../.out", "w", stdout) && std::freopen("../.err", "w", stderr))
+      execl(GIGARAY_PROGRAM, "gigaray", "synth", "garden", "-o", "out", "--views", "400", nullptr);
+    _exit(99);
+  }
+  const auto begin = std::chrono::steady_clock::now();
+  while (names_in("work").empty() && std::chrono::steady_clock::now() - begin < 60s)
+    std::this_thread::sleep_for(20ms);
+  EXPECT_FALSE(names_in("work").empty()) << "it is at work now";
+  kill(child, SIGINT);
+  int status = 0;
+  ASSERT_EQ(waitpid(child, &status, 0), child);
+  ASSERT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), 130);
+  EXPECT_TRUE(names_in("work").empty());
+  EXPECT_NE(text_of(".err").find("gigaray synth: stopped"), std::string::npos) << text_of(".err");
+}
+
+TEST_F(Info, TellsWhatAFolderIs) {
+  for (const std::string number : {"9", "10", "11"}) save("v" + number + ".png");
+  const Result result = run("info .");
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  for (const std::string word : {"image sequence, 3D", "3, v9 … v11", "9 × 7 px, 8 bit", "-1 … 1",
+                                 "v10", "assumed to move to the right"})
+    EXPECT_NE(result.out.find(word), std::string::npos) << word << "\n" << result.out;
+}
+
+TEST_F(Info, DrawsTheGrid) {
+  for (const std::string camera : {"036", "037", "040", "044", "004", "076"})
+    save("input_Cam" + camera + ".png");
+  const Result result = run("info .");
+  EXPECT_NE(result.out.find(" . . . . x . . . .\n"), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find(" x x . . O . . . x\n"), std::string::npos) << result.out;
+}
+
+TEST_F(Info, JsonHoldsTheViews) {
+  save("v1.png");
+  save("v2.png");
+  const Result result = run("info . --direction left --json");
+  const auto json = nlohmann::json::parse(result.out);
+  EXPECT_EQ(json.at("kind"), "3D");
+  EXPECT_EQ(json.at("width"), 9);
+  EXPECT_EQ(json.at("sign_is_assumed"), false);
+  EXPECT_TRUE(json.at("disparity_range").is_null());
+  ASSERT_EQ(json.at("views").size(), 2);
+  EXPECT_EQ(json.at("views")[0].at("name"), "v1");
+  EXPECT_EQ(json.at("views")[0].at("s"), 0.5);
+}
+
+TEST_F(Info, BadInputEndsWithOne) {
+  expect_failure("info nowhere", 1, "gigaray info: nowhere", "no such file");
+  std::filesystem::create_directory(folder / "empty");
+  expect_failure("info empty", 1, "empty", "no pictures");
+  save("mixed/v1.png");
+  expect_failure("info mixed", 1, "only one picture");
+  save("mixed/v2.png", 9, 8);
+  expect_failure("info mixed", 1, "v2.png", "9×8");
+}
+
+TEST_F(Info, OptionsThatContradictEndWithTwo) {
+  save("v1.png");
+  save("v2.png");
+  expect_failure("info . --positions places.txt --direction left", 2, "--direction", "--positions");
+}
+
+}  // namespace
+}  // namespace gigaray

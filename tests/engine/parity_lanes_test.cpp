@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Gigaray authors
+// Every lane width, with the tuning of CPUs and of GPUs, against the reference: what other devices
+// run is tested here too.
+#include <gtest/gtest.h>
+
+#include "engine/cache_fixture.h"
+#include "engine/parity_bench.h"
+#include "opencl/tuning.h"
+
+namespace gigaray::testing_support {
+namespace {
+
+constexpr double kRounding = 4e-6, kScore = 1e-4;  // as in parity_test.cpp
+constexpr ParityCase kCase{93, 23, {7, 12}, BandEncoding::kBits16};
+
+class ParityLanes : public CacheFixture {
+ protected:
+  static void TearDownTestSuite() { ParityTable::instance().print(); }
+
+  static void expect_within(const std::string& stage, const Difference& difference,
+                            double tolerance) {
+    ParityTable::instance().add("Epi", stage, difference);
+    EXPECT_LE(difference.largest, tolerance) << stage;
+    EXPECT_EQ(difference.one_sided + difference.apart, 0) << stage;
+  }
+
+  static void tune(int lanes, int group, int stage) {
+    for (const KernelTuning& kernel : tuning_in_force(select_device())) {
+      opencl::Tuning tuning{{"LANES", lanes}, {"GROUP", group}};
+      if (kernel.parameters.count("STAGE")) tuning["STAGE"] = stage;
+      opencl::save_user_tuning(select_device(), kernel.kernel, tuning);
+    }
+  }
+
+  static void check_paper(const std::string& lanes) {
+    DepthOptions options = paper_options();
+    options.score.mean_shift_iterations = 2;
+    options.winner.refine = true;
+    ParityBench<EpiSampler> bench(kCase, options);
+    const RowRange rows = bench.rows();
+    StripMap<float> expected(bench.width(), rows), actual = expected, lead = expected;
+    bench.reference->edge_confidence(1, rows, expected);
+    bench.opencl->edge_confidence(1, rows, actual);
+    expect_within("edge confidence" + lanes, compare(expected, actual, rows), kRounding);
+
+    const auto todo = bench.random_todo(rows);
+    const auto bounds = bench.random_bounds(rows);
+    bench.reference->density_score(3, rows, todo, bounds);
+    bench.opencl->density_score(3, rows, todo, bounds);
+    expect_within("score, paper" + lanes, compare_scores(bench, rows, todo, bounds, 1), kScore);
+
+    StripMap<float> expected_lead = expected;
+    bench.reference->winner(rows, todo, bounds, expected, expected_lead);
+    bench.opencl->winner(rows, todo, bounds, actual, lead);
+    expect_within("winner, contrast" + lanes, compare(expected_lead, lead, rows), kScore);
+    EXPECT_EQ(compare(expected, actual, rows).one_sided, 0) << lanes;
+    // Where rounding chooses another winner the scores are alike; parity_test.cpp looks at that.
+    int same = 0, all = 0;
+    for (int v = rows.begin; v < rows.end; ++v)
+      for (int u = 0; u < bench.width(); ++u) {
+        if (!todo.row(v)[u]) continue;
+        ++all;
+        same += std::abs(expected.row(v)[u] - actual.row(v)[u]) < 0.01 * bench.hypotheses().step();
+      }
+    EXPECT_GT(same, 0.8 * all) << lanes;
+
+    const auto in = bench.random_disparity(bench.around(2), 0.6);
+    bench.reference->bilateral_median(2, rows, 2, 0.1f, in, expected);
+    bench.opencl->bilateral_median(2, rows, 2, 0.1f, in, actual);
+    expect_within("median" + lanes, compare(expected, actual, rows), 0);
+  }
+
+  static void check_auto(const std::string& lanes) {
+    DepthOptions options = auto_options();
+    options.score.gradient_bandwidth = 0.02f;
+    ParityBench<EpiSampler> bench(kCase, options);
+    const RowRange rows = bench.rows(), around = bench.around(options.support.radius);
+    const auto all = bench.all_todo(around);
+    const auto full = bench.full_bounds(around);
+    const auto todo = bench.random_todo(rows);
+    const auto bounds = bench.random_bounds(rows);
+    for (Backend* backend : {bench.reference.get(), bench.opencl.get()})
+      backend->density_score(0, around, all, full);
+    expect_within("score, auto" + lanes, compare_scores(bench, around, all, full, 1), kScore);
+    for (Backend* backend : {bench.reference.get(), bench.opencl.get()})
+      backend->score_support(0, rows, todo, bounds);
+    expect_within("score support" + lanes, compare_scores(bench, rows, todo, bounds, 1), kScore);
+  }
+};
+
+TEST_F(ParityLanes, OneLaneInGroupsOf64AsOnAGpu) {
+  tune(1, 64, 0);
+  check_paper(", 1 lane");
+  check_auto(", 1 lane");
+}
+
+TEST_F(ParityLanes, FourLanesInGroupsOf3) {
+  tune(4, 3, 1);
+  check_paper(", 4 lanes");
+  check_auto(", 4 lanes");
+}
+
+TEST_F(ParityLanes, EightLanesNotStaged) {
+  tune(8, 1, 0);
+  check_paper(", 8 lanes");
+  check_auto(", 8 lanes");
+}
+
+TEST_F(ParityLanes, SixteenLanes) {
+  tune(16, 1, 1);
+  check_paper(", 16 lanes");
+  check_auto(", 16 lanes");
+}
+
+}  // namespace
+}  // namespace gigaray::testing_support

@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Gigaray authors
+// The result does not depend on memory, files, bands or strips, and is the same every time.
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "engine/cache_fixture.h"
+#include "src/pipeline.h"
+#include "support/analytic_field.h"
+#include "support/depth_result.h"
+
+namespace gigaray::testing_support {
+namespace {
+
+AnalyticField scene(const std::vector<View>& views, int width, int height, int bit_depth = 8) {
+  const Layer back{-0.3, 1, 0.4};
+  Layer front{1.1, 2};
+  front.left = 0.3 * width;
+  front.right = 0.7 * width;
+  front.top = 0.2 * height;
+  front.bottom = 0.6 * height;
+  return analytic_field(width, height, views, {back, front}, bit_depth, 0.004);
+}
+
+DepthOptions small_job(const std::string& preset) {
+  DepthOptions options = preset_options(preset);
+  options.disparity = DisparityRange{-1, 2};
+  options.hypotheses = 31;
+  return options;
+}
+
+DepthResult run(const LightField& light_field, const DepthOptions& options,
+                const std::string& backend = "opencl") {
+  const RunControl control;
+  Reconstruction result = reconstruct(light_field, options, {backend, ""}, control);
+  return all_of(result);
+}
+
+/// The least memory that a run can be given, within 64 KiB.
+double least_memory(const LightField& light_field, DepthOptions options) {
+  double too_little = 1 << 20, enough = 4e9;
+  while (enough - too_little > 65536) {
+    options.memory_bytes = (too_little + enough) / 2;
+    try {
+      forecast(light_field, options);
+      enough = options.memory_bytes;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ErrorCode::kOutOfMemory);
+      too_little = options.memory_bytes;
+    }
+  }
+  return enough;
+}
+
+struct Job {
+  const char* name;
+  const char* preset;
+  bool is_4d;
+};
+
+class PipelineBands : public testing::TestWithParam<Job> {};
+
+TEST_P(PipelineBands, MemoryAndFilesDontChangeTheResult) {
+  const AnalyticField field = GetParam().is_4d ? scene(grid_of_views(3, 3), 61, 67)
+                                               : scene(irregular_row(), 93, 131);
+  DepthOptions options = small_job(GetParam().preset);
+  const ScopedFolder work;
+  options.work_folder = work.path;
+  options.memory_bytes = 4e9;
+  ASSERT_EQ(forecast(field.light_field, options).bands, 1);
+  ASSERT_EQ(forecast(field.light_field, options).disk_bytes, 0);
+  const DepthResult expected = run(field.light_field, options);
+
+  // Every distinct plan between the least memory and plenty.
+  std::set<std::pair<int, bool>> plans;
+  bool on_disk = false;
+  const double least = least_memory(field.light_field, options);
+  for (double more = 0; more < 16e6 && plans.size() < 5; more = more * 1.6 + 1e5) {
+    options.memory_bytes = least + more;
+    const Forecast plan = forecast(field.light_field, options);
+    EXPECT_LE(plan.memory_bytes, options.memory_bytes);
+    if (!plans.insert({plan.bands, plan.disk_bytes > 0}).second) continue;
+    on_disk = on_disk || plan.disk_bytes > 0;
+    expect_identical(expected, run(field.light_field, options),
+                     std::to_string(plan.bands) + " bands, disk " + std::to_string(plan.disk_bytes));
+    EXPECT_TRUE(std::filesystem::is_empty(work.path));
+  }
+  EXPECT_GE(plans.size(), 3u);
+  EXPECT_TRUE(on_disk) << "no limit made it use files";
+}
+
+TEST_P(PipelineBands, TwiceTheSameInputGivesTheSameBits) {
+  const AnalyticField field = GetParam().is_4d ? scene(irregular_grid(), 47, 39)
+                                               : scene(row_of_views(5), 77, 41, 16);
+  const DepthOptions options = small_job(GetParam().preset);
+  expect_identical(run(field.light_field, options), run(field.light_field, options), "second run");
+}
+
+INSTANTIATE_TEST_SUITE_P(Jobs, PipelineBands,
+                         testing::Values(Job{"Paper3D", "paper", false}, Job{"Auto3D", "auto", false},
+                                         Job{"Paper4D", "paper", true}, Job{"Auto4D", "auto", true}),
+                         [](const auto& info) { return info.param.name; });
+
+/// A run with bands and strips of a given height, where memory would not ask for them.
+struct PlannedRun {
+  std::vector<RayTuple> tuples;
+  std::vector<std::vector<std::byte>> estimates;  // per level
+
+  PlannedRun(const LightField& light_field, DepthOptions options, const std::string& backend_name,
+             int band_rows, bool one_row_strips, const std::string& work_folder) {
+    const HypothesisRange hypotheses{options.disparity->min, options.disparity->max,
+                                     options.hypotheses};
+    options.memory_bytes = 4e9;
+    MemoryPlan plan = plan_memory(light_field, options, hypotheses);
+    for (LevelPlan& level : plan.levels) level.band_rows = std::min(band_rows, level.shape.height);
+    if (one_row_strips) plan.volume_bytes = 1;
+    plan.work_folder = work_folder;
+    const BackendSetup setup{options, hypotheses, light_field.kind, light_field.pixels->bit_depth()};
+    const RunControl control;
+    std::visit(
+        [&](const auto& sampler) {
+          const auto backend = backend_name == "reference"
+                                   ? make_reference_backend(sampler, setup)
+                                   : make_opencl_backend(sampler, setup, "");
+          Pipeline pipeline(light_field, options, hypotheses, plan, *backend, control);
+          pipeline.run();
+          pipeline.tuples().for_each([&](const RayTuple& tuple) { tuples.push_back(tuple); });
+          for (LevelState& level : pipeline.levels()) {
+            estimates.emplace_back(level.estimates.row_bytes() * level.shape.height);
+            for (int v = 0; v < level.shape.height; ++v)
+              level.estimates.read(v, 0, level.estimates.row_bytes(),
+                                   estimates.back().data() + v * level.estimates.row_bytes());
+          }
+        },
+        make_sampler(light_field));
+  }
+
+  void expect_same(const PlannedRun& other, const std::string& what) const {
+    EXPECT_TRUE(estimates == other.estimates) << what;
+    ASSERT_EQ(tuples.size(), other.tuples.size()) << what;
+    for (std::size_t i = 0; i < tuples.size(); ++i)
+      ASSERT_TRUE(same_bits(tuples[i], other.tuples[i])) << what << ", tuple " << i;
+  }
+};
+
+void expect_bands_alike(const std::string& backend, const LightField& light_field,
+                        const DepthOptions& options) {
+  const ScopedFolder work;
+  const PlannedRun expected(light_field, options, backend, 1000, false, "");
+  EXPECT_GT(expected.tuples.size(), std::size_t(light_field.width) * light_field.height / 2);
+  for (const int band_rows : {1, 5, 8, 19})
+    PlannedRun(light_field, options, backend, band_rows, band_rows == 8,
+               band_rows == 5 ? work.path.string() : "")
+        .expect_same(expected, backend + " in bands of " + std::to_string(band_rows));
+}
+
+TEST(PipelineBandHeight, ReferenceGivesTheSameBitsInAnyBands) {
+  DepthOptions options = small_job("auto");
+  options.hypotheses = 13;
+  options.support.radius = 2;
+  expect_bands_alike("reference", scene(row_of_views(4), 37, 23).light_field, options);
+  expect_bands_alike("reference", scene(grid_of_views(2, 2), 31, 27).light_field, options);
+  options = small_job("paper");
+  options.hypotheses = 17;
+  expect_bands_alike("reference", scene(grid_of_views(2, 2), 31, 27, 16).light_field, options);
+}
+
+TEST(PipelineBandHeight, OpenClGivesTheSameBitsInAnyBandsAndStrips) {
+  for (const char* preset : {"paper", "auto"}) {
+    const DepthOptions options = small_job(preset);
+    expect_bands_alike("opencl", scene(irregular_row(), 61, 43).light_field, options);
+    expect_bands_alike("opencl", scene(irregular_grid(), 47, 45).light_field, options);
+  }
+}
+
+}  // namespace
+}  // namespace gigaray::testing_support
