@@ -91,6 +91,10 @@ void Console::show_progress(const std::string& stage, double done, double total)
     return;
   }
   if (!is_terminal_) return;
+  if (done >= total) {  // what comes next, on stdout perhaps, gets a clean line
+    clear_bar();
+    return;
+  }
   last_drawn_ = now;
 
   const double share = total > 0 ? std::clamp(done / total, 0.0, 1.0) : 0.0;

@@ -6,11 +6,22 @@
 
 namespace gigaray::cli {
 
-void DepthRunOptions::add_to(CLI::App& app) {
-  input.add_to(app);
+void add_preset_option(CLI::App& app, std::string& preset) {
   app.add_option("--preset", preset, "auto, or paper: the steps and constants of Kim et al. 2013")
       ->check(CLI::IsMember({"auto", "paper"}))
       ->capture_default_str();
+}
+
+void add_memory_option(CLI::App& app, double& gib) {
+  app.add_option("--memory", gib, "Most memory to use (default: three quarters of what is free); the "
+                 "result does not depend on it")
+      ->check(CLI::PositiveNumber)
+      ->type_name("GiB");
+}
+
+void DepthRunOptions::add_to(CLI::App& app) {
+  input.add_to(app);
+  add_preset_option(app, preset);
   app.add_option("--disparity", disparity,
                  "Range to test, px per view step, positive is nearer (default: from the input, else "
                  "estimated)")
@@ -23,10 +34,7 @@ void DepthRunOptions::add_to(CLI::App& app) {
                  "OpenCL device: index or part of its name, see `gigaray devices`; `reference` for "
                  "plain, slow C++")
       ->type_name("D");
-  app.add_option("--memory", memory_gib, "Most memory to use (default: three quarters of what is "
-                 "free); the result does not depend on it")
-      ->check(CLI::PositiveNumber)
-      ->type_name("GiB");
+  add_memory_option(app, memory_gib);
   app.add_option("--work", work_folder, "Folder for intermediate data that memory does not hold "
                  "(default: the folder for temporary files)")
       ->type_name("DIR");

@@ -10,6 +10,10 @@
 
 namespace gigaray::cli {
 
+/// --preset and --memory, for the commands that have not all of DepthRunOptions.
+void add_preset_option(CLI::App& app, std::string& preset);
+void add_memory_option(CLI::App& app, double& gib);
+
 /// INPUT and the options that decide the result; shared by `depth` and `probe`.
 struct DepthRunOptions {
   InputOptions input;

@@ -11,7 +11,8 @@
 #include <vector>
 
 #include "command.h"
-#include "input_options.h"
+#include "depth_options_cli.h"
+#include "gigaray/reconstruct.h"
 
 namespace gigaray::cli {
 namespace {
@@ -23,8 +24,28 @@ using nlohmann::ordered_json;
 
 struct InfoOptions {
   InputOptions input;
+  std::string preset = "auto";
+  double memory_gib = 0;
   bool json = false;
 };
+
+/// What `gigaray depth` of all views will take, or why it can't run.
+struct DepthForecast {
+  Forecast forecast;
+  std::string refusal;  ///< Empty: it can run.
+};
+
+DepthForecast forecast_depth(const LightField& light_field, const InfoOptions& options) {
+  DepthOptions depth = preset_options(options.preset);
+  depth.memory_bytes = options.memory_gib * double(1 << 30);
+  try {
+    return {forecast(light_field, depth), ""};
+  } catch (const Error& error) {
+    return {{}, error.what()};
+  }
+}
+
+double to_mib(double bytes) { return bytes / (1 << 20); }
 
 struct Bounds {
   double min, max;
@@ -72,7 +93,19 @@ std::string rig_text(const RigGeometry& rig) {
   return parts.empty() ? "unknown" : fmt::format("{}", fmt::join(parts, ", "));
 }
 
-void print_text(const LightField& light_field) {
+std::string forecast_text(const DepthForecast& depth) {
+  if (!depth.refusal.empty()) return "can't run: " + depth.refusal;
+  const Forecast& forecast = depth.forecast;
+  std::string text = fmt::format("takes {:.0f} MiB of memory", to_mib(forecast.memory_bytes));
+  if (forecast.disk_bytes > 0)
+    text += fmt::format(" and {:.0f} MiB of disk", to_mib(forecast.disk_bytes));
+  if (forecast.bands > 1)
+    text += fmt::format(", in {} bands of rows; {:.0f} MiB of memory would hold all",
+                        forecast.bands, to_mib(forecast.memory_all_bytes));
+  return text;
+}
+
+void print_text(const LightField& light_field, const DepthForecast& depth) {
   const auto line = [](const char* label, const std::string& text) {
     fmt::print("{:<11}{}\n", label, text);
   };
@@ -96,10 +129,11 @@ void print_text(const LightField& light_field) {
            ? fmt::format("{:.4g} … {:.4g} px per view step, declared",
                          light_field.declared_range->min, light_field.declared_range->max)
            : "range not declared");
+  line("depth", forecast_text(depth));
   for (const std::string& note : light_field.notes) line("note", note);
 }
 
-void print_json(const LightField& light_field) {
+void print_json(const LightField& light_field, const DepthForecast& depth) {
   const auto number = [](const std::optional<double>& value) {
     return value ? ordered_json(*value) : ordered_json(nullptr);
   };
@@ -119,6 +153,14 @@ void print_json(const LightField& light_field) {
                  {"baseline", number(rig.baseline)},
                  {"focus_distance", number(rig.focus_distance)},
                  {"unit", rig.unit}};
+  const Forecast& forecast = depth.forecast;
+  if (depth.refusal.empty())
+    root["forecast"] = {{"memory_mib", to_mib(forecast.memory_bytes)},
+                        {"disk_mib", to_mib(forecast.disk_bytes)},
+                        {"memory_all_mib", to_mib(forecast.memory_all_bytes)},
+                        {"bands", forecast.bands}};
+  else
+    root["forecast"] = {{"refusal", depth.refusal}};
   root["notes"] = light_field.notes;
   root["views"] = ordered_json::array();
   for (const View& view : light_field.views)
@@ -129,16 +171,20 @@ void print_json(const LightField& light_field) {
 }  // namespace
 
 Run info_command(CLI::App& app) {
-  app.description("What an input is: kind, views, size, positions, rig, disparity range");
+  app.description("What an input is: kind, views, size, positions, rig, disparity range, and the "
+                  "memory and disk that depth for all views takes");
   auto options = std::make_shared<InfoOptions>();
   options->input.add_to(app);
+  add_preset_option(app, options->preset);
+  add_memory_option(app, options->memory_gib);
   app.add_flag("--json", options->json, "Print JSON");
   return [options](const RunControl&) {
     const LightField light_field = options->input.open_light_field();
+    const DepthForecast depth = forecast_depth(light_field, *options);
     if (options->json)
-      print_json(light_field);
+      print_json(light_field, depth);
     else
-      print_text(light_field);
+      print_text(light_field, depth);
   };
 }
 

@@ -4,8 +4,6 @@
 // followed by white space, then 32-bit floats; rows from bottom to top. A negative scale means
 // little endian.
 #include <bit>
-#include <charconv>
-#include <cstring>
 
 #include "float_bytes.h"
 #include "gigaray/adapters/atomic_output.h"

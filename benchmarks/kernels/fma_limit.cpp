@@ -3,12 +3,12 @@
 #include "kernels/fma_limit.h"
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <cstdint>
 #include <functional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "opencl/buffer.h"
 #include "opencl/program_cache.h"
@@ -61,14 +61,14 @@ Kernel build(Device& device, const char* name, int lanes) {
       device, opencl::build_program(device, {&part, 1}, "-DLANES=" + std::to_string(lanes)), name);
 }
 
-/// Seconds of the fastest of several runs, half a second of them: other work disturbs some.
-double best_seconds(const Device& device, const std::function<void()>& run) {
+/// Seconds of the fastest of several runs within about `budget` seconds.
+double best_seconds(const Device& device, double budget, const std::function<void()>& run) {
   using Clock = std::chrono::steady_clock;
   run();
   device.finish();
   double best = 1e30;
   double total = 0;
-  for (int repeat = 0; repeat < 5 || total < 0.5; ++repeat) {
+  for (int repeat = 0; repeat < 3 || total < budget; ++repeat) {
     const auto begin = Clock::now();
     run();
     device.finish();
@@ -81,38 +81,66 @@ double best_seconds(const Device& device, const std::function<void()>& run) {
 
 }  // namespace
 
-double measure_fma_per_second(Device& device) {
-  const auto& info = device.info();
-  const bool gpu = info.type == DeviceType::kGpu;
-  // A GPU hides latency with many items per unit; a CPU thread runs one item at a time.
-  const std::size_t group = gpu ? 64 : 1;
-  const std::size_t items = std::size_t(info.compute_units) * (gpu ? 2048 : 8);
-
-  double best = 0;
-  for (const int lanes : gpu ? std::array{1, 4} : std::array{16, 8}) {
-    Kernel kernel = build(device, "fma_chains", lanes);
-    const Buffer out(device, items * lanes * sizeof(float));
-    // Rounds that take about 20 ms, from the time of a short run.
-    const auto seconds_of = [&](int rounds) {
-      kernel.set_args(out, rounds);
-      return best_seconds(device, [&] { kernel.run(items, group); });
-    };
-    constexpr int kShort = 1 << 12;
-    const double rounds =
-        std::clamp(kShort * 0.02 / seconds_of(kShort), double(kShort), double(1 << 28));
-    const double seconds = seconds_of(int(rounds));
-    best = std::max(best, double(items) * lanes * kChains * kStepsPerRound * int(rounds) / seconds);
+struct MachineLimit::Impl {
+  explicit Impl(const std::string& name) : device(Device::open(name)) {
+    const auto& info = device.info();
+    is_gpu = info.type == DeviceType::kGpu;
+    // A GPU hides latency with many items per unit; a CPU thread runs one item at a time.
+    group = is_gpu ? 64 : 1;
+    items = std::size_t(info.compute_units) * (is_gpu ? 2048 : 8);
+    double best = 0;
+    for (const int lanes : is_gpu ? std::vector{1, 4} : std::vector{16, 8}) {
+      Chains chains{build(device, "fma_chains", lanes),
+                    Buffer(device, items * lanes * sizeof(float)), lanes};
+      // Rounds that take about 10 ms, from the time of a short run.
+      constexpr int kShort = 1 << 12;
+      chains.rounds = kShort;
+      chains.rounds = int(std::clamp(kShort * 0.01 / seconds_of(chains, 0.1), double(kShort),
+                                     double(1 << 28)));
+      const double rate = rate_of(chains, 0.2);
+      if (rate > best) {
+        best = rate;
+        fastest = std::move(chains);
+      }
+    }
   }
-  return best;
+
+  struct Chains {
+    Kernel kernel;
+    Buffer out;
+    int lanes = 1;
+    int rounds = 0;
+  };
+
+  double seconds_of(Chains& chains, double budget) {
+    chains.kernel.set_args(chains.out, chains.rounds);
+    return best_seconds(device, budget, [&] { chains.kernel.run(items, group); });
+  }
+  double rate_of(Chains& chains, double budget) {
+    const double steps = double(kChains) * kStepsPerRound * chains.rounds;
+    return double(items) * chains.lanes * steps / seconds_of(chains, budget);
+  }
+
+  Device device;
+  bool is_gpu = false;
+  std::size_t group = 1, items = 1;
+  Chains fastest;
+};
+
+MachineLimit::MachineLimit(const std::string& device) : impl_(std::make_unique<Impl>(device)) {}
+MachineLimit::~MachineLimit() = default;
+
+double MachineLimit::fma_per_second(double seconds) {
+  return impl_->rate_of(impl_->fastest, seconds);
 }
 
-double measure_copy_bytes_per_second(Device& device) {
+double MachineLimit::copy_bytes_per_second(double seconds) {
+  Device& device = impl_->device;
   const auto& info = device.info();
-  const bool gpu = info.type == DeviceType::kGpu;
   const std::size_t bytes = std::min<std::uint64_t>(
-      {std::uint64_t(gpu ? 1024 : 256) << 20, info.max_allocation, info.global_memory / 8});
-  const int lanes = gpu ? 4 : 16;
-  const std::size_t group = gpu ? 256 : 4096;
+      {std::uint64_t(impl_->is_gpu ? 1024 : 256) << 20, info.max_allocation, info.global_memory / 8});
+  const int lanes = impl_->is_gpu ? 4 : 16;
+  const std::size_t group = impl_->is_gpu ? 256 : 4096;
   const std::size_t items =
       bytes / (lanes * sizeof(float)) / group * group;  // whole groups: no item without data
   const std::size_t local = std::min<std::size_t>(group, info.max_group_size);
@@ -122,8 +150,8 @@ double measure_copy_bytes_per_second(Device& device) {
   from.clear();
   Kernel kernel = build(device, "copy", lanes);
   kernel.set_args(from, to);
-  const double seconds = best_seconds(device, [&] { kernel.run(items, local); });
-  return 2.0 * double(items) * lanes * sizeof(float) / seconds;
+  const double best = best_seconds(device, seconds, [&] { kernel.run(items, local); });
+  return 2.0 * double(items) * lanes * sizeof(float) / best;
 }
 
 }  // namespace gigaray::benchmarks

@@ -65,9 +65,9 @@ TEST_F(Pfm, PositiveScaleMeansBigEndian) {
 
 TEST_F(Pfm, DoesNotDependOnTheLocale) {
   const CommaLocale locale;
-  const FloatMap map = sample_map(1031, 1);
+  const FloatMap map = sample_map(1031, 2);
   write_pfm(folder / "map.pfm", map);
-  EXPECT_TRUE(read("map.pfm").starts_with("Pf\n1031 1\n-1.0\n"));
+  EXPECT_TRUE(read("map.pfm").starts_with("Pf\n1031 2\n-1.0\n"));
   EXPECT_TRUE(same(read_pfm(folder / "map.pfm"), map));
 }
 

@@ -56,7 +56,6 @@ TEST_F(Frame, WrongUsageEndsWithTwo) {
 }
 
 TEST_F(Frame, ResultThatCannotBePrintedIsAFailure) {
-  if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full on this system";
   for (int i = 1; i <= 2; ++i)
     write_png(folder / ("v" + std::to_string(i) + ".png"), Image<std::uint16_t>(9, 7, 3), 8);
   const int status = std::system(

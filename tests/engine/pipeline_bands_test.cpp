@@ -9,6 +9,7 @@
 #include "src/pipeline.h"
 #include "support/analytic_field.h"
 #include "support/depth_result.h"
+#include "support/memory_limits.h"
 
 namespace gigaray::testing_support {
 namespace {
@@ -35,22 +36,6 @@ DepthResult run(const LightField& light_field, const DepthOptions& options,
   const RunControl control;
   Reconstruction result = reconstruct(light_field, options, {backend, ""}, control);
   return all_of(result);
-}
-
-/// The least memory that a run can be given, within 64 KiB.
-double least_memory(const LightField& light_field, DepthOptions options) {
-  double too_little = 1 << 20, enough = 4e9;
-  while (enough - too_little > 65536) {
-    options.memory_bytes = (too_little + enough) / 2;
-    try {
-      forecast(light_field, options);
-      enough = options.memory_bytes;
-    } catch (const Error& error) {
-      EXPECT_EQ(error.code(), ErrorCode::kOutOfMemory);
-      too_little = options.memory_bytes;
-    }
-  }
-  return enough;
 }
 
 struct Job {

@@ -4,27 +4,51 @@
 // so that pixel i stands for pixel 2 i. Edge pixels are repeated.
 //   band   rows of the fine level
 //   small  [row - small_begin][view][3][small_width], rows [small_begin, small_end)
-// One work-item per (view, row of the small level).
+// One work-item per (block of LANES small pixels, row of the small level, view).
 
 __constant float GAUSSIAN[7] = {6.96193329e-05f, 1.03324251e-02f, 2.07532307e-01f,
                                 5.64131298e-01f, 2.07532307e-01f, 1.03324251e-02f, 6.96193329e-05f};
 
+// Small pixel u: both sums, one pixel at a time.
+static inline float smooth_pixel(__global const float* const* rows, int u) {
+  float total = 0.0f;
+  for (int y = 0; y < 7; ++y) {
+    float sum = 0.0f;
+    for (int x = 0; x < 7; ++x) sum += GAUSSIAN[x] * rows[y][2 * u + x - 3];
+    total += GAUSSIAN[y] * sum;
+  }
+  return total;
+}
+
 __kernel void downsample(__global const float* band, const BandParams p, const int small_width,
                          const int small_begin, __global float* small) {
-  const int view = get_global_id(0), row = get_global_id(1);
-  const int v = 2 * (small_begin + row);
+  const int u = get_global_id(0) * LANES, row = get_global_id(1), view = get_global_id(2);
+  if (u >= small_width) return;
   __global float* out = small + ((size_t)row * p.num_views + view) * 3 * small_width;
   for (int c = 0; c < 3; ++c) {
-    for (int u = 0; u < small_width; ++u) {
-      float total = 0.0f;
-      for (int y = -3; y <= 3; ++y) {
-        __global const float* from =
-            band_row(band, p, view, clamp(v + y, 0, p.height - 1)) + c * p.stride + 2 * u;
-        float sum = 0.0f;
-        for (int x = -3; x <= 3; ++x) sum += GAUSSIAN[x + 3] * from[x];
-        total += GAUSSIAN[y + 3] * sum;
-      }
-      out[c * small_width + u] = total;
+    __global const float* rows[7];
+    for (int y = 0; y < 7; ++y) {
+      const int v = clamp(2 * (small_begin + row) + y - 3, 0, p.height - 1);
+      rows[y] = band_row(band, p, view, v) + c * p.stride;
     }
+    __global float* here = out + c * small_width + u;
+#if LANES > 1
+    if (u + LANES <= small_width) {
+      // Columns first, as vectors; then every second value along the row.
+      float line[3 * LANES];
+      for (int j = 0; j < 3; ++j) {
+        vfloat column = (vfloat)(0.0f);
+        for (int y = 0; y < 7; ++y)
+          column += GAUSSIAN[y] * VLOAD(rows[y] + 2 * u - 3 + j * LANES);
+        VSTORE(column, line + j * LANES);
+      }
+      vfloat total = (vfloat)(0.0f);
+      for (int x = 0; x < 7; ++x)
+        total += GAUSSIAN[x] * (vfloat)(VLOAD(line + x).even, VLOAD(line + x + LANES).even);
+      VSTORE(total, here);
+      continue;
+    }
+#endif
+    for (int i = 0; i < LANES && u + i < small_width; ++i) here[i] = smooth_pixel(rows, u + i);
   }
 }

@@ -5,12 +5,11 @@
 #include <functional>
 #include <optional>
 
-#include "gigaray/backend.h"
 #include "gigaray/samplers/any_sampler.h"
 #include "kernels/kernel_params.h"
 #include "opencl/buffer.h"
+#include "opencl/opencl_backend.h"
 #include "opencl/program_cache.h"
-#include "opencl/tuning.h"
 
 namespace gigaray {
 namespace {
@@ -28,10 +27,11 @@ struct LaneKernel {
   Kernel kernel;
   int lanes = 1;
   int group = 1;
+  bool staged = false;  ///< density_score: STAGE 1, see there.
 
-  void run(int width, int rows) const {
+  void run(int width, int rows, int views = 1) const {
     const std::size_t blocks = (std::size_t(width) + lanes - 1) / lanes;
-    kernel.run(WorkSize(round_up(blocks, group), rows), WorkSize(group, 1));
+    kernel.run(WorkSize(round_up(blocks, group), rows, views), WorkSize(group, 1, 1));
   }
   /// Local memory of `count` vectors for every work-item of a group.
   LocalMemory vectors(std::size_t count) const {
@@ -70,9 +70,11 @@ struct SamplerTwin {
 
 class OpenClBackend : public Backend {
  public:
-  OpenClBackend(SamplerTwin sampler, const BackendSetup& setup, const std::string& selection)
+  OpenClBackend(SamplerTwin sampler, const BackendSetup& setup, const std::string& selection,
+                opencl::TuningOverrides overrides)
       : sampler_(std::move(sampler)),
         setup_(setup),
+        overrides_(std::move(overrides)),
         device_(opencl::Device::open(selection)),
         table_(colour_table(setup.bit_depth, setup.options.score.linear_rgb)) {
     hypotheses_ = {float(setup.hypotheses.min), float(setup.hypotheses.step()),
@@ -135,21 +137,19 @@ class OpenClBackend : public Backend {
   void density_score(int ref, RowRange rows, const StripMap<std::uint8_t>& todo,
                      const StripMap<HypothesisBounds>& bounds) override {
     const ScoreOptions& score = setup_.options.score;
-    const opencl::Tuning tuning = opencl::lookup_tuning(device_.info(), "density_score");
     LaneKernel& kernel =
         lane_kernel("density_score", score_defines() +
                                          (score.stop_early ? "" : " -DMOVE_BOUND=0.0f"));
-    score_rows_ = rows;
-    Buffer& scores = scores_[0].at_least(device_, volume_bytes(rows));
-    current_scores_ = 0;
+    raw_rows_ = rows;
+    Buffer& scores = raw_scores_.at_least(device_, volume_bytes(rows));
+    winner_reads(raw_scores_, rows);
     const float all = float(band_.num_views);
     const int min_views = std::max(1, int(std::ceil(score.min_views * all)));
-    const bool staged = !score.gradient && tuning.at("STAGE") != 0;
     kernel.kernel.set_args(band_memory_.buffer, band_, strip(ref, rows), views_buffer_, hypotheses_,
                            upload(1, rows, todo), upload(2, rows, bounds), score.bandwidth,
                            score.gradient_bandwidth, score.gradient_share, min_views,
                            score.floor_views * all, scores,
-                           kernel.vectors(staged ? 3 * band_.num_views : 1));
+                           kernel.vectors(kernel.staged ? 3 * band_.num_views : 1));
     kernel.run(band_.width, rows.size());
     device_.finish();  // so that the stage's seconds are its own
   }
@@ -158,17 +158,42 @@ class OpenClBackend : public Backend {
                      const StripMap<HypothesisBounds>& bounds) override {
     const SupportOptions& support = setup_.options.support;
     LaneKernel& kernel = lane_kernel("score_support", define("RADIUS", support.radius));
-    Buffer& scores = scores_[current_scores_].buffer;
-    current_scores_ = 1 - current_scores_;
-    Buffer& supported = scores_[current_scores_].at_least(device_, volume_bytes(rows));
-    const int window = 2 * support.radius + 1;
+    Buffer& supported = supported_scores_.at_least(device_, volume_bytes(rows));
+    const std::size_t window = 2 * support.radius + 1;
     kernel.kernel.set_args(band_memory_.buffer, band_, strip(ref, rows), hypotheses_,
-                           upload(1, rows, todo), upload(2, rows, bounds), scores, score_rows_.begin,
-                           support.sigma_colour, support.sigma_space, supported,
-                           kernel.vectors(std::size_t(window) * window));
+                           upload(1, rows, todo), upload(2, rows, bounds), raw_scores_.buffer,
+                           raw_rows_.begin, support.sigma_colour, support.sigma_space, supported,
+                           kernel.vectors(window * window));
     kernel.run(band_.width, rows.size());
     device_.finish();
-    score_rows_ = rows;
+    winner_reads(supported_scores_, rows);
+  }
+
+  void slanted_support(int ref, RowRange rows, const StripMap<std::uint8_t>& todo,
+                       const StripMap<HypothesisBounds>& bounds,
+                       const StripMap<Slope>& slopes) override {
+    const SupportOptions& support = setup_.options.support;
+    LaneKernel& kernel = lane_kernel("slanted_support", define("RADIUS", support.radius));
+    Buffer& supported = supported_scores_.at_least(device_, volume_bytes(rows));
+    const std::size_t window = 2 * support.radius + 1;
+    kernel.kernel.set_args(band_memory_.buffer, band_, strip(ref, rows), hypotheses_,
+                           upload(1, rows, todo), upload(2, rows, bounds), upload(5, rows, slopes),
+                           raw_scores_.buffer, raw_rows_.begin, support.sigma_colour,
+                           support.sigma_space, supported, kernel.vectors(2 * window * window));
+    kernel.run(band_.width, rows.size());
+    device_.finish();
+    winner_reads(supported_scores_, rows);
+  }
+
+  void slope_fit(int ref, RowRange rows, const StripMap<float>& in,
+                 StripMap<Slope>& slopes) override {
+    LaneKernel& kernel = lane_kernel("slope_fit", "");
+    const RowRange around = grown(rows, kSlopeReach, band_.height);
+    Buffer& out = map_out(5, rows, sizeof(Slope));
+    kernel.kernel.set_args(band_memory_.buffer, band_, strip(ref, rows), upload(4, around, in),
+                           around.begin, setup_.options.support.max_slope, out);
+    kernel.run(band_.width, rows.size());
+    download(out, rows, slopes);
   }
 
   void winner(RowRange rows, const StripMap<std::uint8_t>& todo,
@@ -179,7 +204,7 @@ class OpenClBackend : public Backend {
     Buffer& best = map_out(3, rows, sizeof(float));
     Buffer& lead = map_out(4, rows, sizeof(float));
     kernel.kernel.set_args(strip(0, rows), hypotheses_, upload(1, rows, todo), upload(2, rows, bounds),
-                           scores_[current_scores_].buffer, best, lead);
+                           winner_scores_->buffer, best, lead);
     kernel.run(band_.width, rows.size());
     download(best, rows, disparity);
     download(lead, rows, contrast);
@@ -191,7 +216,7 @@ class OpenClBackend : public Backend {
     for (int i = 0; i < int(scores.size()); ++i) {
       const std::size_t at =
           (std::size_t(v - score_rows_.begin) * scores.size() + i) * band_.stride + GIGARAY_PAD + u;
-      scores_[current_scores_].buffer.read(std::span(&scores[i], 1), at * sizeof(float));
+      winner_scores_->buffer.read(std::span(&scores[i], 1), at * sizeof(float));
     }
     return scores;
   }
@@ -251,9 +276,9 @@ class OpenClBackend : public Backend {
     const std::size_t values =
         std::size_t(small_rows.size()) * band_.num_views * 3 * small_width;
     Buffer& out = encoded_.at_least(device_, values * sizeof(float));
-    plain_kernel("downsample", "downsample", "")
-        .set_args(band_memory_.buffer, band_, small_width, small_rows.begin, out)
-        .run(WorkSize(band_.num_views, small_rows.size()), WorkSize(1, 1));
+    LaneKernel& kernel = lane_kernel("downsample", "");
+    kernel.kernel.set_args(band_memory_.buffer, band_, small_width, small_rows.begin, out);
+    kernel.run(small_width, small_rows.size(), band_.num_views);
     out.read(std::span(small, values));
   }
 
@@ -266,6 +291,11 @@ class OpenClBackend : public Backend {
 
   std::size_t volume_bytes(RowRange rows) const {
     return std::size_t(rows.size()) * hypotheses_.count * band_.stride * sizeof(float);
+  }
+
+  void winner_reads(Scratch& scores, RowRange rows) {
+    winner_scores_ = &scores;
+    score_rows_ = rows;
   }
 
   std::string score_defines() const {
@@ -311,38 +341,70 @@ class OpenClBackend : public Backend {
   LaneKernel& lane_kernel(const std::string& file, const std::string& options) {
     auto [it, is_new] = lane_kernels_.try_emplace(file + options);
     if (is_new) {
-      const opencl::Tuning tuning = opencl::lookup_tuning(device_.info(), file);
+      const opencl::Tuning tuning = tuning_of(file);
+      const auto stage = tuning.find("STAGE");
       it->second = {build(file, file, opencl::defines(tuning) + options), tuning.at("LANES"),
-                    tuning.at("GROUP")};
+                    tuning.at("GROUP"), stage != tuning.end() && stage->second != 0};
     }
     return it->second;
   }
 
+  opencl::Tuning tuning_of(const std::string& kernel) const {
+    opencl::Tuning tuning = opencl::lookup_tuning(device_.info(), kernel);
+    if (const auto own = overrides_.find(kernel); own != overrides_.end())
+      for (const auto& [name, value] : own->second) tuning[name] = value;
+    if (tuning.contains("STAGE")) {
+      // Only the kernel with mean-shift has samples to stage, and only where local memory holds them.
+      const std::size_t bytes = std::size_t(3) * sampler_.num_views * tuning.at("LANES") *
+                                tuning.at("GROUP") * sizeof(float);
+      if (setup_.options.score.gradient || bytes > device_.info().local_memory) tuning["STAGE"] = 0;
+    }
+    return tuning;
+  }
+
   SamplerTwin sampler_;
   BackendSetup setup_;
+  opencl::TuningOverrides overrides_;
   opencl::Device device_;
   std::vector<float> table_;
   HypothesisParams hypotheses_{};
   BandParams band_{};
   int active_count_ = 0;
   RowRange score_rows_;
-  int current_scores_ = 0;
+  RowRange raw_rows_;                ///< of raw_scores_
+  Scratch* winner_scores_ = nullptr;  ///< the scores of score_rows_
 
   Buffer table_buffer_, active_buffer_, views_buffer_;
-  Scratch encoded_, band_memory_, scores_[2], maps_[6];
+  Scratch encoded_, band_memory_, raw_scores_, supported_scores_, maps_[6];
   std::map<std::string, Kernel> plain_kernels_;
   std::map<std::string, LaneKernel> lane_kernels_;
 };
 
 }  // namespace
 
+namespace opencl {
+
 template <RaySampler S>
-std::unique_ptr<Backend> make_opencl_backend(const S& sampler, const BackendSetup& setup,
-                                             const std::string& device_selection) {
+std::unique_ptr<Backend> make_tuned_backend(const S& sampler, const BackendSetup& setup,
+                                            const std::string& device_selection,
+                                            const TuningOverrides& overrides) {
   SamplerTwin twin{std::string(S::kKernelFile),
                    [sampler](int level) { return sampler.at_level(level).view_table(); },
                    sampler.num_views()};
-  return std::make_unique<OpenClBackend>(std::move(twin), setup, device_selection);
+  return std::make_unique<OpenClBackend>(std::move(twin), setup, device_selection, overrides);
+}
+
+template std::unique_ptr<Backend> make_tuned_backend(const EpiSampler&, const BackendSetup&,
+                                                     const std::string&, const TuningOverrides&);
+template std::unique_ptr<Backend> make_tuned_backend(const GridSampler&, const BackendSetup&,
+                                                     const std::string&, const TuningOverrides&);
+
+}  // namespace opencl
+
+template <RaySampler S>
+std::unique_ptr<Backend> make_opencl_backend(const S& sampler, const BackendSetup& setup,
+                                             const std::string& device_selection) {
+  return opencl::make_tuned_backend(sampler, setup, device_selection, {});
 }
 
 template std::unique_ptr<Backend> make_opencl_backend(const EpiSampler&, const BackendSetup&,

@@ -9,6 +9,7 @@
 #include "mean_radiance.h"
 #include "propagation.h"
 #include "score_support.h"
+#include "slope_fit.h"
 #include "unpack_channels.h"
 #include "winner.h"
 
@@ -46,32 +47,47 @@ class ReferenceBackend : public Backend {
   }
   void density_score(int ref, RowRange rows, const StripMap<std::uint8_t>& todo,
                      const StripMap<HypothesisBounds>& bounds) override {
-    scores_ = Scores(rows, setup_.hypotheses.count, band_.shape.width);
+    raw_scores_ = Scores(rows, setup_.hypotheses.count, band_.shape.width);
     for (int v = rows.begin; v < rows.end; ++v) {
       for (int u = 0; u < band_.shape.width; ++u) {
         if (!todo.row(v)[u]) continue;
         const auto [first, last] = bounds.row(v)[u];
         for (int i = first; i <= last; ++i) {
           const Ray ray{double(u), double(v), setup_.hypotheses.value(i)};
-          scores_.at(u, v, i) =
+          raw_scores_.at(u, v, i) =
               reference::density_score(band_, sampler_, ref, ray, setup_.options.score);
         }
       }
     }
+    winner_scores_ = &raw_scores_;
   }
   void score_support(int ref, RowRange rows, const StripMap<std::uint8_t>& todo,
                      const StripMap<HypothesisBounds>& bounds) override {
-    scores_ = reference::score_support(band_, ref, rows, setup_.options.support, todo, bounds, scores_);
+    supported_scores_ = reference::score_support(band_, ref, rows, setup_.options.support, todo,
+                                                 bounds, raw_scores_);
+    winner_scores_ = &supported_scores_;
+  }
+  void slanted_support(int ref, RowRange rows, const StripMap<std::uint8_t>& todo,
+                       const StripMap<HypothesisBounds>& bounds,
+                       const StripMap<Slope>& slopes) override {
+    supported_scores_ =
+        reference::slanted_support(band_, ref, rows, setup_.options.support, setup_.hypotheses, todo,
+                                   bounds, slopes, raw_scores_);
+    winner_scores_ = &supported_scores_;
+  }
+  void slope_fit(int ref, RowRange rows, const StripMap<float>& in,
+                 StripMap<Slope>& slopes) override {
+    reference::slope_fit(band_, ref, rows, setup_.options.support.max_slope, in, slopes);
   }
   void winner(RowRange rows, const StripMap<std::uint8_t>& todo,
               const StripMap<HypothesisBounds>& bounds, StripMap<float>& disparity,
               StripMap<float>& contrast) override {
-    reference::winner(rows, scores_, setup_.hypotheses, setup_.options.winner.refine, todo, bounds,
+    reference::winner(rows, *winner_scores_, setup_.hypotheses, setup_.options.winner.refine, todo, bounds,
                       disparity, contrast);
   }
   std::vector<float> scores_at(int u, int v) override {
     std::vector<float> scores;
-    for (int i = 0; i < scores_.count; ++i) scores.push_back(scores_.at(u, v, i));
+    for (int i = 0; i < winner_scores_->count; ++i) scores.push_back(winner_scores_->at(u, v, i));
     return scores;
   }
   void bilateral_median(int ref, RowRange rows, int radius, float tolerance,
@@ -100,7 +116,8 @@ class ReferenceBackend : public Backend {
   std::vector<float> table_;
   std::vector<int> active_views_;
   Band band_;
-  Scores scores_;
+  Scores raw_scores_, supported_scores_;
+  const Scores* winner_scores_ = nullptr;
 };
 
 }  // namespace

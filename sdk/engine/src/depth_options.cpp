@@ -47,6 +47,9 @@ void DepthOptions::check() const {
                 "support.radius above 0 needs score.min_views 0: every score must be a number");
   in_range("support.sigma_colour", support.sigma_colour, kTiny, kLarge);
   in_range("support.sigma_space", support.sigma_space, kTiny, kLarge);
+  in_range("support.max_slope", support.max_slope, 0.0f, kLarge);
+  if (support.slanted && support.radius == 0)
+    throw Error(ErrorCode::kInvalidArgument, "support.slanted needs a support.radius above 0");
   in_range("winner.median_radius", winner.median_radius, 0, 8);
   in_range("winner.median_tolerance", winner.median_tolerance, kTiny, kLarge);
   in_range("propagation.tolerance", propagation.tolerance, kTiny, kLarge);
@@ -77,6 +80,7 @@ DepthOptions auto_options() {
   options.score.min_views = 0;
   options.score.floor_views = 0.25f;
   options.support.radius = 4;
+  options.support.slanted = true;
   options.winner.refine = true;
   options.winner.median_radius = 2;
   options.winner.weigh_by_edge = false;

@@ -83,8 +83,8 @@ MemoryPlan plan_memory(const LightField& light_field, const DepthOptions& option
   const double copies = options.support.radius > 0 ? 2 : 1;
   const double volume =
       std::clamp(limit / 12, volume_row * support_rows, std::max(192 * kMiB, volume_row * support_rows));
-  // Maps of one view: todo, bounds (twice with support), disparity, confidence, median, radiance.
-  const double view_maps = pitch * light_field.height * 40;
+  // Maps of one view: todo, bounds (twice with support), disparity, confidence, median, radiance, slopes.
+  const double view_maps = pitch * light_field.height * (options.support.slanted ? 52 : 40);
   const double decoding = std::min(4u, std::max(1u, std::thread::hardware_concurrency())) * 12.0 *
                           light_field.width * light_field.height;
   const double fixed = kProcessBytes + copies * volume + std::max(view_maps, decoding);
@@ -101,7 +101,8 @@ MemoryPlan plan_memory(const LightField& light_field, const DepthOptions& option
       level.shape = shape;
       // Beyond what the windows reach: a row for gradients, two for interpolation taps.
       level.halo = 3 + std::max({options.edge.radius + 2, options.support.radius,
-                                 options.winner.median_radius, 3});
+                                 options.winner.median_radius,
+                                 options.support.slanted ? kSlopeReach : 0, 3});
       const LevelCost cost = cost_of(shape, light_field, options, active, in_files);
       const double left = limit - fixed - (in_files ? 0 : stores);
       const double rows =

@@ -55,8 +55,10 @@ class Pipeline {
   void find_edges_and_downsample();
   bool find_todo(int active_idx, ViewMaps& maps);
   void score_view(int active_idx, ViewMaps& maps);
+  /// slopes: null for plain support.
   void score_strip(int view, RowRange rows, ViewMaps& maps, const StripMap<std::uint8_t>& score_todo,
-                   const StripMap<HypothesisBounds>& score_bounds);
+                   const StripMap<HypothesisBounds>& score_bounds, const StripMap<Slope>* slopes);
+  StripMap<Slope> fit_slopes(int view, const ViewMaps& maps);
   void accept_view(int active_idx, ViewMaps& maps);
   void coarsen();
 
@@ -84,6 +86,7 @@ class Pipeline {
 
   int level_ = 0;
   RowRange loaded_band_;
+  RowRange scored_rows_;  ///< what the backend has raw scores of, for the view that is worked on
   AlignedBytes band_scratch_, state_scratch_;
 };
 

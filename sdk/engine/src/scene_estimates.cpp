@@ -194,7 +194,7 @@ std::optional<DisparityRange> check_direction(LightField& light_field, const Run
   RangeEstimate best = estimate_disparity_range(light_field, control);
   if (light_field.kind == LightFieldKind::k4D) {
     LightField mirrored = light_field;
-    for (View& view : mirrored.views) view.t = -view.t;
+    for (View& view : mirrored.views) view.t = 0 - view.t;
     try {
       const RangeEstimate other = estimate_disparity_range(mirrored, control);
       if (other.agreement > best.agreement) {
@@ -218,8 +218,8 @@ std::optional<DisparityRange> check_direction(LightField& light_field, const Run
     return best.range;
   }
   for (View& view : light_field.views) {
-    view.s = -view.s;
-    view.t = -view.t;
+    view.s = 0 - view.s;  // never -0
+    view.t = 0 - view.t;
   }
   best.range = {-best.range.max, -best.range.min};
   control.message(

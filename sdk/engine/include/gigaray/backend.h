@@ -60,6 +60,14 @@ struct Radiance {
   float r = 0, g = 0, b = 0;
 };
 
+/// How an estimate changes from pixel to pixel, hypothesis units per px.
+struct Slope {
+  float along_u = 0, along_v = 0;
+};
+
+/// Rows around a pixel that slope_fit looks at.
+inline constexpr int kSlopeReach = 15;
+
 /// One pyramid level.
 struct LevelShape {
   int level = 0;
@@ -96,10 +104,18 @@ class Backend {
   /// Scores of `rows` where todo; kept until the next call.
   virtual void density_score(int ref, RowRange rows, const StripMap<std::uint8_t>& todo,
                              const StripMap<HypothesisBounds>& bounds) = 0;
-  /// Replaces the scores of the last density_score by supported ones for `rows`, which lie
-  /// support.radius inside its rows or at the edge of the picture.
+  /// Makes supported scores for `rows` out of those of the last density_score, which cover
+  /// support.radius rows more on both sides or end at the edge of the picture.
   virtual void score_support(int ref, RowRange rows, const StripMap<std::uint8_t>& todo,
                              const StripMap<HypothesisBounds>& bounds) = 0;
+  /// The same along the slope of the surface. The last density_score tested all hypotheses.
+  virtual void slanted_support(int ref, RowRange rows, const StripMap<std::uint8_t>& todo,
+                               const StripMap<HypothesisBounds>& bounds,
+                               const StripMap<Slope>& slopes) = 0;
+  /// Slope of the surface at every estimate. in: rows grown by kSlopeReach; NaN: no estimate.
+  virtual void slope_fit(int ref, RowRange rows, const StripMap<float>& in,
+                         StripMap<Slope>& slopes) = 0;
+  /// The best hypothesis by the scores of the last call of the three above.
   virtual void winner(RowRange rows, const StripMap<std::uint8_t>& todo,
                       const StripMap<HypothesisBounds>& bounds, StripMap<float>& disparity,
                       StripMap<float>& contrast) = 0;

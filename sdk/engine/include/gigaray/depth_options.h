@@ -44,6 +44,10 @@ struct SupportOptions {
   int radius = 0;               ///< Half the window in px; 0: none (per-ray scores, as the paper). 0 … 8
   float sigma_colour = 0.03f;   ///< > 0
   float sigma_space = 4;        ///< px, > 0
+  /// A second pass at level 0 with support along the slope that the first pass found: keeps slanted
+  /// surfaces exact. Needs radius > 0.
+  bool slanted = false;
+  float max_slope = 0.3f;  ///< Steepest slope, hypothesis units per px. ≥ 0
 };
 
 /// The winner, its confidence and the bilateral median (eq. 6–8).

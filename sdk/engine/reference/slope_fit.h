@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Gigaray authors
+#pragma once
+
+#include "band.h"
+
+namespace gigaray::reference {
+
+/// Slope of the surface at every estimate: a robust plane through it and those around it. Weights are
+/// Gaussians of colour and distance, times Tukey's biweight of the residual, with ever smaller scale.
+void slope_fit(const Band& band, int ref, RowRange rows, float max_slope, const StripMap<float>& in,
+               StripMap<Slope>& slopes);
+
+}  // namespace gigaray::reference

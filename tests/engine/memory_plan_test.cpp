@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Gigaray authors
+#include "src/memory_plan.h"
+
+#include <gtest/gtest.h>
+
+#include "support/analytic_field.h"
+#include "support/errors.h"
+
+namespace gigaray {
+namespace {
+
+using namespace testing_support;
+
+constexpr double kMiB = 1 << 20;
+constexpr HypothesisRange kHypotheses{-1, 2, 86};
+
+/// A large light field of which no pixel is read.
+LightField described(std::vector<View> views, int width, int height, int bit_depth = 8) {
+  LightField light_field;
+  light_field.kind = kind_from_positions(views);
+  light_field.width = width;
+  light_field.height = height;
+  light_field.views = std::move(views);
+  light_field.pixels = pixels_in_memory({}, bit_depth);
+  return light_field;
+}
+
+MemoryPlan plan(const LightField& light_field, double mib, const std::string& preset = "paper") {
+  DepthOptions options = preset_options(preset);
+  options.memory_bytes = mib * kMiB;
+  options.work_folder = "work";
+  return plan_memory(light_field, options, kHypotheses);
+}
+
+TEST(LevelShapes, HalveAndRoundUpUntilTenPixels) {
+  const auto shapes = level_shapes(93, 145, true);
+  const std::pair<int, int> expected[] = {{93, 145}, {47, 73}, {24, 37}, {12, 19}};
+  ASSERT_EQ(shapes.size(), std::size(expected));
+  for (int i = 0; i < int(shapes.size()); ++i) {
+    EXPECT_EQ(shapes[i].level, i);
+    EXPECT_EQ(std::pair(shapes[i].width, shapes[i].height), expected[i]);
+  }
+  EXPECT_EQ(level_shapes(93, 145, false).size(), 1u);
+  EXPECT_EQ(level_shapes(7, 5, true).size(), 1u);
+  EXPECT_EQ(level_shapes(20, 1000, true).size(), 2u);
+}
+
+TEST(MemoryPlan, ForecastObeysTheLimit) {
+  const LightField fields[] = {described(row_of_views(100), 1920, 1080),
+                               described(row_of_views(50), 352, 240),
+                               described(row_of_views(100), 5616, 3744),
+                               described(grid_of_views(9, 9), 512, 512, 16)};
+  for (const LightField& light_field : fields)
+    for (const char* preset : {"paper", "auto"})
+      for (const double mib : {600.0, 1024.0, 2048.0, 8192.0, 32768.0}) {
+        MemoryPlan result;
+        try {
+          result = plan(light_field, mib, preset);
+        } catch (const Error& error) {
+          EXPECT_EQ(error.code(), ErrorCode::kOutOfMemory);
+          EXPECT_LT(mib, 2048) << light_field.width;
+          continue;
+        }
+        EXPECT_LE(result.forecast.memory_bytes, mib * kMiB);
+        EXPECT_EQ(result.forecast.disk_bytes > 0, result.work_folder == "work");
+        const LevelPlan& first = result.levels.front();
+        EXPECT_GE(result.forecast.bands * first.band_rows, light_field.height);
+        EXPECT_LT((result.forecast.bands - 1) * first.band_rows, light_field.height);
+        for (const LevelPlan& level : result.levels) {
+          EXPECT_GE(level.band_rows, 1);
+          EXPECT_LE(level.band_rows, level.shape.height);
+        }
+      }
+}
+
+TEST(MemoryPlan, HundredViewsOfTwoMegapixelsFitIntoOneGiB) {
+  const LightField light_field = described(row_of_views(100), 1920, 1080);
+  for (const char* preset : {"paper", "auto"}) {
+    const Forecast forecast = plan(light_field, 1024, preset).forecast;
+    EXPECT_GT(forecast.bands, 1);
+    EXPECT_GT(forecast.disk_bytes, 0);
+    EXPECT_GT(forecast.memory_all_bytes, 1024 * kMiB);
+  }
+}
+
+TEST(MemoryPlan, MoreMemoryMeansNoMoreBands) {
+  const LightField light_field = described(row_of_views(100), 1920, 1080);
+  int last = light_field.height;
+  for (double mib = 600; mib < 40000; mib *= 1.5) {
+    const MemoryPlan result = plan(light_field, mib);
+    if (result.work_folder.empty()) break;  // in memory fewer rows are left for a band
+    EXPECT_LE(result.forecast.bands, last);
+    last = result.forecast.bands;
+  }
+  EXPECT_LT(last, light_field.height);
+}
+
+TEST(MemoryPlan, PlentyOfMemoryNeedsNoFile) {
+  const MemoryPlan result = plan(described(grid_of_views(9, 9), 512, 512), 64 * 1024);
+  EXPECT_TRUE(result.work_folder.empty());
+  EXPECT_EQ(result.forecast.disk_bytes, 0);
+}
+
+TEST(MemoryPlan, TheHaloHoldsEveryWindow) {
+  for (const char* preset : {"paper", "auto"}) {
+    DepthOptions options = preset_options(preset);
+    options.winner.median_radius = 8;
+    options.edge.radius = 16;
+    const LightField light_field = described(row_of_views(9), 200, 200);
+    for (const LevelPlan& level : plan_memory(light_field, options, kHypotheses).levels) {
+      EXPECT_GE(level.halo, options.winner.median_radius);
+      EXPECT_GE(level.halo, options.edge.radius + 2) << "edges of the rows that the opening looks at";
+      EXPECT_GE(level.halo, options.support.radius + 3) << "with gradients and interpolation taps";
+      EXPECT_GE(level.halo, 3 + 1) << "downsampling";
+    }
+  }
+}
+
+TEST(MemoryPlan, FewerViewsThatKeepDepthTakeLess) {
+  const LightField light_field = described(grid_of_views(9, 9), 512, 512);
+  DepthOptions options = paper_options();
+  options.memory_bytes = 64e9;
+  const double all = plan_memory(light_field, options, kHypotheses).forecast.memory_all_bytes;
+  options.views = {40};
+  EXPECT_LT(plan_memory(light_field, options, kHypotheses).forecast.memory_all_bytes, all);
+}
+
+TEST(MemoryPlan, AnImpossibleLimitSaysWhatItTakes) {
+  const LightField light_field = described(row_of_views(100), 1920, 1080);
+  expect_error(ErrorCode::kOutOfMemory, {"100 MiB", "100 views", "at least"},
+               [&] { plan(light_field, 100); });
+}
+
+}  // namespace
+}  // namespace gigaray

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Gigaray authors
+#include "gigaray/scene_estimates.h"
+
+#include <gtest/gtest.h>
+
+#include "support/analytic_field.h"
+#include "support/errors.h"
+
+namespace gigaray::testing_support {
+namespace {
+
+AnalyticField two_planes(const std::vector<View>& views, double far, double near, int width = 161,
+                         int height = 95, int bit_depth = 8) {
+  Layer front{near, 7};
+  front.left = 0.2 * width;
+  front.right = 0.5 * width;
+  return analytic_field(width, height, views, {{far, 3}, front}, bit_depth);
+}
+
+TEST(RangeEstimate, HoldsAllPlanesAndLittleMore) {
+  const RunControl control;
+  struct Case {
+    std::vector<View> views;
+    double far, near;
+  };
+  for (const Case& test : {Case{row_of_views(9), 0.4, 1.7}, Case{grid_of_views(5, 5), -0.9, 1.1},
+                           Case{irregular_grid(), 0.5, 2.0}, Case{row_of_views(2), 1, 4}}) {
+    const AnalyticField field = two_planes(test.views, test.far, test.near);
+    const RangeEstimate estimate = estimate_disparity_range(field.light_field, control);
+    const double span = test.near - test.far;
+    EXPECT_LE(estimate.range.min, test.far);
+    EXPECT_GE(estimate.range.max, test.near);
+    EXPECT_GT(estimate.range.min, test.far - 0.7 * span);
+    EXPECT_LT(estimate.range.max, test.near + 0.7 * span);
+    EXPECT_EQ(estimate.negative_share > 0.1, test.far < 0);
+    EXPECT_GT(estimate.samples, 100);
+  }
+}
+
+TEST(RangeEstimate, LargePicturesAreSearchedSmall) {
+  const RunControl control;
+  const AnalyticField field = two_planes(row_of_views(5), 2, 7, 801, 161, 16);
+  const RangeEstimate estimate = estimate_disparity_range(field.light_field, control);
+  EXPECT_LE(estimate.range.min, 2.1);
+  EXPECT_GE(estimate.range.max, 6.9);
+  EXPECT_LT(estimate.range.max - estimate.range.min, 12);
+}
+
+TEST(RangeEstimate, PicturesWithoutTextureAskForARange) {
+  const RunControl control;
+  const AnalyticField flat = analytic_field(93, 61, row_of_views(5), {{0.5, 1, 0}});
+  expect_error(ErrorCode::kBadInput, {"--disparity"},
+               [&] { estimate_disparity_range(flat.light_field, control); });
+}
+
+TEST(RangeEstimate, CanBeCancelled) {
+  RunControl control;
+  control.cancel();
+  const AnalyticField field = two_planes(row_of_views(5), 0.4, 1.7);
+  expect_error(ErrorCode::kCancelled, {},
+               [&] { estimate_disparity_range(field.light_field, control); });
+}
+
+struct Messages {
+  RunControl control;
+  std::string all;
+  Messages() {
+    control.on_message = [this](const std::string& message) { all += message + "\n"; };
+  }
+};
+
+TEST(CheckDirection, ARowThatMovesTheOtherWayIsTurnedAround) {
+  LightField light_field = two_planes(row_of_views(7), 0.4, 1.7).light_field;
+  const std::vector<View> right = light_field.views;
+  for (View& view : light_field.views) view.s = -view.s;  // the wrong assumption
+  light_field.sign_is_assumed = true;
+  Messages messages;
+  const auto range = check_direction(light_field, messages.control);
+  for (std::size_t i = 0; i < right.size(); ++i) EXPECT_EQ(light_field.views[i].s, right[i].s);
+  EXPECT_NE(messages.all.find("turned around"), std::string::npos) << messages.all;
+  EXPECT_FALSE(light_field.sign_is_assumed);
+  ASSERT_TRUE(range);
+  EXPECT_LE(range->min, 0.4);
+  EXPECT_GE(range->max, 1.7);
+  EXPECT_GT(range->min, -0.5);
+}
+
+TEST(CheckDirection, ARightAssumptionStaysSilently) {
+  LightField light_field = two_planes(row_of_views(7), 0.4, 1.7).light_field;
+  const std::vector<View> before = light_field.views;
+  light_field.sign_is_assumed = true;
+  Messages messages;
+  EXPECT_TRUE(check_direction(light_field, messages.control));
+  for (std::size_t i = 0; i < before.size(); ++i) EXPECT_EQ(light_field.views[i].s, before[i].s);
+  EXPECT_EQ(messages.all, "");
+}
+
+TEST(CheckDirection, AKnownSignIsNotTouchedAndNothingIsRead) {
+  LightField light_field = two_planes(row_of_views(7), -1.7, -0.4).light_field;
+  const std::vector<View> before = light_field.views;
+  light_field.pixels = nullptr;
+  Messages messages;
+  EXPECT_FALSE(check_direction(light_field, messages.control));
+  for (std::size_t i = 0; i < before.size(); ++i) EXPECT_EQ(light_field.views[i].s, before[i].s);
+}
+
+TEST(CheckDirection, AMirroredGridIsFoundInAllFourOrders) {
+  const LightField right = two_planes(grid_of_views(3, 3), 0.5, 1.6).light_field;
+  for (const double sign_s : {1, -1})
+    for (const double sign_t : {1, -1}) {
+      LightField light_field = right;
+      for (View& view : light_field.views) {
+        view.s *= sign_s;
+        view.t *= sign_t;
+      }
+      light_field.sign_is_assumed = true;
+      Messages messages;
+      check_direction(light_field, messages.control);
+      for (std::size_t i = 0; i < right.views.size(); ++i) {
+        EXPECT_EQ(light_field.views[i].s, right.views[i].s) << sign_s << " " << sign_t;
+        EXPECT_EQ(light_field.views[i].t, right.views[i].t) << sign_s << " " << sign_t;
+      }
+      EXPECT_EQ(messages.all.empty(), sign_s > 0 && sign_t > 0) << messages.all;
+    }
+}
+
+TEST(CheckDirection, DisparitiesOfBothSignsStayAsAssumedAndAreReported) {
+  Layer front{1.2, 3};
+  front.left = 60;
+  LightField light_field =
+      analytic_field(161, 95, row_of_views(7), {{-1.1, 3}, front}).light_field;
+  const std::vector<View> before = light_field.views;
+  light_field.sign_is_assumed = true;
+  Messages messages;
+  check_direction(light_field, messages.control);
+  for (std::size_t i = 0; i < before.size(); ++i) EXPECT_EQ(light_field.views[i].s, before[i].s);
+  EXPECT_NE(messages.all.find("both signs"), std::string::npos) << messages.all;
+}
+
+TEST(NoiseEstimate, GrowsWithTheNoise) {
+  const RunControl control;
+  for (const auto& views : {row_of_views(9), grid_of_views(3, 3)}) {
+    NoiseEstimate last{-1, -1};
+    for (const double noise : {0.0, 0.01, 0.03, 0.08}) {
+      const AnalyticField field = analytic_field(93, 61, views, {{0.5}}, 16, noise);
+      const NoiseEstimate estimate = estimate_noise(field.light_field, {-1, 2, 31}, control);
+      EXPECT_GT(estimate.colour, last.colour) << noise;
+      EXPECT_GT(estimate.gradient, last.gradient) << noise;
+      // Two noisy colours of three channels are sqrt(6) sigma apart; the best hypothesis is less.
+      EXPECT_LT(estimate.colour, 3 * noise + 0.02);
+      last = estimate;
+    }
+  }
+}
+
+TEST(NoiseEstimate, BandwidthsGrowWithItFromALeastValue) {
+  DepthOptions clean = auto_options(), noisy = auto_options();
+  apply_noise({0, 0}, clean);
+  apply_noise({0.05, 0.02}, noisy);
+  EXPECT_EQ(clean.score.bandwidth, 0.02f);
+  EXPECT_EQ(clean.score.gradient_bandwidth, 0.003f);
+  EXPECT_GT(noisy.score.bandwidth, clean.score.bandwidth);
+  EXPECT_GT(noisy.score.gradient_bandwidth, clean.score.gradient_bandwidth);
+  EXPECT_GT(noisy.support.sigma_colour, clean.support.sigma_colour);
+  EXPECT_NO_THROW(noisy.check());
+}
+
+}  // namespace
+}  // namespace gigaray::testing_support
