@@ -98,15 +98,16 @@ void run(const Settings& settings, const RunControl& control) {
   DepthOptions options = settings.run.resolve(light_field, control);
   options.views = parse_views(settings.views, light_field);
 
-  Reconstruction result = reconstruct(light_field, options, settings.run.backend(), control);
-
-  const HypothesisRange& range = result.hypotheses();
   std::set<MapFormat> formats;
   for (const std::string& name : settings.formats)
     formats.insert(name == "exr"   ? MapFormat::kExr
                    : name == "npy" ? MapFormat::kNpy
                                    : MapFormat::kPng16);
-  DepthFolder folder(settings.output, formats, {range.min, range.max});
+  DepthFolder folder(settings.output, formats);
+
+  Reconstruction result = reconstruct(light_field, options, settings.run.backend(), control);
+
+  folder.set_pictured({result.hypotheses().min, result.hypotheses().max});
   const int centre = views_from_centre(light_field).front();
   ordered_json views = ordered_json::array();
   Coverage all(result.num_levels()), of_centre(result.num_levels());

@@ -39,10 +39,10 @@ void draw_text(cv::Mat& canvas, const std::string& text, double x, double y, dou
   cv::putText(canvas, text, corner, cv::FONT_HERSHEY_SIMPLEX, kFont, colour, 1, cv::LINE_AA);
 }
 
-std::string number(double value) {
+std::string number(double value, int digits = 4) {
   char text[32];
-  // Adding zero turns -0 into 0.
-  std::snprintf(text, sizeof text, "%.4g", std::abs(value) < 1e-9 ? 0.0 : value);
+  // The sum of many steps is only nearly zero.
+  std::snprintf(text, sizeof text, "%.*g", digits, std::abs(value) < 1e-9 ? 0.0 : value);
   return text;
 }
 
@@ -112,9 +112,10 @@ Image<std::uint16_t> draw_epi(const EpiDrawing& epi) {
     if ((row - epi.reference_row) % every != 0) continue;
     const double y = kMargin + y_of(row);
     draw_line(canvas, kLeft - kTickLength, y, kLeft - 1, y, kInk);
-    draw_text(canvas, (row == epi.reference_row ? "s = " : "") + number(epi.s[row]),
-              kLeft - 8, y, 1.0, row == epi.reference_row ? kRed : kInk);
+    draw_text(canvas, number(epi.s[row], 3), kLeft - 8, y, 1.0,
+              row == epi.reference_row ? kRed : kInk);
   }
+  draw_text(canvas, "s", 6, kMargin + y_of(epi.reference_row), 0.0);
   return picture_of(canvas);
 }
 
@@ -134,7 +135,7 @@ Image<std::uint16_t> draw_samples(std::span<const SampleCell> cells) {
   const auto x_of = [&](double s) { return kLeft + (s - s_min + 0.5) * pitch; };
   const auto y_of = [&](double t) { return kMargin + (t - t_min + 0.5) * pitch; };
 
-  const int side = std::max(int(0.88 * pitch), 6);
+  const int side = std::max(int(0.82 * pitch), 6);
   for (const SampleCell& cell : cells) {
     const cv::Rect patch(int(std::lround(x_of(cell.s) - 0.5 * side)),
                          int(std::lround(y_of(cell.t) - 0.5 * side)), side, side);

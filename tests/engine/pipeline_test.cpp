@@ -118,6 +118,10 @@ TEST(Pipeline, AFlatPictureGetsDepthToo) {
   const AnalyticField field = analytic_field(33, 31, row_of_views(3), {{0, 1, 0}});
   for (const char* preset : kPresets)
     EXPECT_EQ(pixels_without_estimate(run(field.light_field, job(preset, {-1, 1}, 21))), 0) << preset;
+  // All hypotheses score 1 then, and of equal scores the smallest hypothesis wins.
+  for (const char* backend : {"opencl", "reference"})
+    for (const auto& [view, depth] : run(field.light_field, job("paper", {-1, 1}, 21), backend).views)
+      for (const float d : depth.disparity) EXPECT_EQ(d, -1) << backend;
 }
 
 TEST(Pipeline, ReferenceAndOpenClAgree) {

@@ -23,10 +23,12 @@ enum class MapFormat { kExr, kNpy, kPng16 };
 /// only when complete.
 class DepthFolder {
  public:
-  /// pictured: range of the colours of depth.png and of 16-bit PNGs. Throws like AtomicFolder.
-  DepthFolder(const std::filesystem::path& target, std::set<MapFormat> formats,
-              DisparityRange pictured)
-      : folder_(target, kDepthFormat), formats_(std::move(formats)), pictured_(pictured) {}
+  /// Make it before the work: throws like AtomicFolder when the place can't be used.
+  DepthFolder(const std::filesystem::path& target, std::set<MapFormat> formats)
+      : folder_(target, kDepthFormat), formats_(std::move(formats)) {}
+
+  /// Range of the colours of depth.png and of 16-bit PNGs; before the first view.
+  void set_pictured(DisparityRange range) { pictured_ = range; }
 
   /// disparity, confidence: (v, u), NaN where there is no estimate.
   void write_view(const std::string& name, const FloatMap& disparity, const FloatMap& confidence,
@@ -41,7 +43,7 @@ class DepthFolder {
 
   AtomicFolder folder_;
   std::set<MapFormat> formats_;
-  DisparityRange pictured_;
+  DisparityRange pictured_{-1, 1};
 };
 
 }  // namespace gigaray
