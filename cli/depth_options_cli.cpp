@@ -2,6 +2,8 @@
 // Copyright (c) 2026 The Gigaray authors
 #include "depth_options_cli.h"
 
+#include <fmt/format.h>
+
 #include "gigaray/scene_estimates.h"
 
 namespace gigaray::cli {
@@ -13,7 +15,8 @@ void add_preset_option(CLI::App& app, std::string& preset) {
 }
 
 void add_memory_option(CLI::App& app, double& gib) {
-  app.add_option("--memory", gib, "Most memory to use (default: three quarters of what is free); the "
+  app.add_option("--memory", gib,
+                 "Most memory to use (default: three quarters of what is free); the "
                  "result does not depend on it")
       ->check(CLI::PositiveNumber)
       ->type_name("GiB");
@@ -22,12 +25,14 @@ void add_memory_option(CLI::App& app, double& gib) {
 void DepthRunOptions::add_to(CLI::App& app) {
   input.add_to(app);
   add_preset_option(app, preset);
-  app.add_option("--disparity", disparity,
-                 "Range to test, px per view step, positive is nearer (default: from the input, else "
-                 "estimated)")
+  app.add_option(
+         "--disparity", disparity,
+         "Range to test, px per view step, positive is nearer (default: from the input, else "
+         "estimated)")
       ->expected(2)
       ->type_name("MIN MAX");
-  app.add_option("--hypotheses", hypotheses, "Number of disparities to test, 2 … 4096 (default: 256 "
+  app.add_option("--hypotheses", hypotheses,
+                 "Number of disparities to test, 2 … 4096 (default: 256 "
                  "for paper, one every 0.035 px for auto)")
       ->type_name("N");
   app.add_option("--device", device,
@@ -35,7 +40,8 @@ void DepthRunOptions::add_to(CLI::App& app) {
                  "plain, slow C++")
       ->type_name("D");
   add_memory_option(app, memory_gib);
-  app.add_option("--work", work_folder, "Folder for intermediate data that memory does not hold "
+  app.add_option("--work", work_folder,
+                 "Folder for intermediate data that memory does not hold "
                  "(default: the folder for temporary files)")
       ->type_name("DIR");
 }
@@ -53,8 +59,12 @@ DepthOptions DepthRunOptions::resolve(LightField& light_field, const RunControl&
   options.work_folder = work_folder;
   options.check();
   check(light_field);
-  if (const auto range = check_direction(light_field, control); range && !options.disparity)
+  if (const auto range = check_direction(light_field, control); range && !options.disparity) {
     options.disparity = range;
+    control.message(
+        fmt::format("disparity range {:.4g} … {:.4g} px per view step, estimated from the pictures",
+                    range->min, range->max));
+  }
   return options;
 }
 

@@ -26,8 +26,8 @@ struct DepthRunOptions {
 
   void add_to(CLI::App& app);
   BackendChoice backend() const;
-  /// The options of the engine. Checks the direction of travel, which may turn the axes of the light
-  /// field around.
+  /// The options of the engine. Checks the direction of travel, which may turn the axes of the
+  /// light field around.
   DepthOptions resolve(LightField& light_field, const RunControl& control) const;
 };
 

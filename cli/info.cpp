@@ -171,8 +171,7 @@ void print_json(const LightField& light_field, const DepthForecast& depth) {
 }  // namespace
 
 Run info_command(CLI::App& app) {
-  app.description("What an input is: kind, views, size, positions, rig, disparity range, and the "
-                  "memory and disk that depth for all views takes");
+  app.description("What an input is: kind, views, positions, rig, range; what depth of it takes");
   auto options = std::make_shared<InfoOptions>();
   options->input.add_to(app);
   add_preset_option(app, options->preset);

@@ -85,8 +85,8 @@ void print_text(const Finding& finding, const LightField& light_field) {
   };
   const View& view = light_field.views[finding.view];
   const HypothesisRange& range = finding.curve.hypotheses;
-  line("pixel", fmt::format("u {}, v {} of {} (s {:.4g}, t {:.4g})", finding.u, finding.v, view.name,
-                            view.s, view.t));
+  line("pixel", fmt::format("u {}, v {} of {} (s {:.4g}, t {:.4g})", finding.u, finding.v,
+                            view.name, view.s, view.t));
   line("hypotheses", fmt::format("{}, {:.4g} … {:.4g} px per view step, one every {:.4g}",
                                  range.count, range.min, range.max, range.step()));
   if (!finding.best) {
@@ -110,7 +110,8 @@ void print_text(const Finding& finding, const LightField& light_field) {
 
 ordered_json to_json(const Finding& finding, const LightField& light_field) {
   const auto peak = [](const std::optional<Peak>& p) {
-    return p ? ordered_json{{"disparity", p->disparity}, {"score", p->score}} : ordered_json(nullptr);
+    return p ? ordered_json{{"disparity", p->disparity}, {"score", p->score}}
+             : ordered_json(nullptr);
   };
   const View& view = light_field.views[finding.view];
   const HypothesisRange& range = finding.curve.hypotheses;
@@ -127,23 +128,24 @@ ordered_json to_json(const Finding& finding, const LightField& light_field) {
                                                   : ordered_json{seen.r, seen.g, seen.b}}});
   }
   // NaN becomes null.
-  return {{"format", kProbeFormat},
-          {"version", 1},
-          {"view", view.name},
-          {"u", finding.u},
-          {"v", finding.v},
-          {"disparity", finding.curve.disparity},
-          {"confidence", finding.curve.confidence},
-          {"min_confidence", finding.min_confidence},
-          {"hypotheses",
-           {{"min", range.min}, {"max", range.max}, {"count", range.count}, {"step", range.step()}}},
-          {"best", peak(finding.best)},
-          {"runner_up", peak(finding.runner_up)},
-          {"mean_score", finding.mean},
-          {"seen_by", finding.seen_by},
-          {"num_views", light_field.num_views()},
-          {"scores", scores},
-          {"samples", samples}};
+  return {
+      {"format", kProbeFormat},
+      {"version", 1},
+      {"view", view.name},
+      {"u", finding.u},
+      {"v", finding.v},
+      {"disparity", finding.curve.disparity},
+      {"confidence", finding.curve.confidence},
+      {"min_confidence", finding.min_confidence},
+      {"hypotheses",
+       {{"min", range.min}, {"max", range.max}, {"count", range.count}, {"step", range.step()}}},
+      {"best", peak(finding.best)},
+      {"runner_up", peak(finding.runner_up)},
+      {"mean_score", finding.mean},
+      {"seen_by", finding.seen_by},
+      {"num_views", light_field.num_views()},
+      {"scores", scores},
+      {"samples", samples}};
 }
 
 /// The views in a row with the chosen one, ordered by s: all of a 3D light field.
@@ -151,9 +153,8 @@ std::vector<int> row_of_views(const LightField& light_field, int reference) {
   std::vector<int> row;
   for (int i = 0; i < light_field.num_views(); ++i)
     if (std::abs(light_field.views[i].t - light_field.views[reference].t) < 0.5) row.push_back(i);
-  std::sort(row.begin(), row.end(), [&](int a, int b) {
-    return light_field.views[a].s < light_field.views[b].s;
-  });
+  std::sort(row.begin(), row.end(),
+            [&](int a, int b) { return light_field.views[a].s < light_field.views[b].s; });
   return row;
 }
 
@@ -163,9 +164,8 @@ Image<std::uint16_t> epi_picture(const Finding& finding, const LightField& light
   const std::vector<int> row = row_of_views(light_field, finding.view);
   const HypothesisRange& range = finding.curve.hypotheses;
   const double here = light_field.views[finding.view].s;
-  const double travel =
-      std::max(std::abs(light_field.views[row.front()].s - here),
-               std::abs(light_field.views[row.back()].s - here));
+  const double travel = std::max(std::abs(light_field.views[row.front()].s - here),
+                                 std::abs(light_field.views[row.back()].s - here));
   const double reach = kAround + travel * std::max(std::abs(range.min), std::abs(range.max));
   const int begin = int(std::max(finding.u - reach, 0.0));
   const int end = int(std::min(finding.u + reach + 1, double(light_field.width)));
@@ -186,7 +186,8 @@ Image<std::uint16_t> epi_picture(const Finding& finding, const LightField& light
     const bool found = there && !std::isnan(there->u);
     epi.line.push_back(found ? there->u : kNoEstimate);
     // Where t wobbles from view to view, the row that the ray meets.
-    const int v = found ? std::clamp(int(std::lround(there->v)), 0, light_field.height - 1) : finding.v;
+    const int v =
+        found ? std::clamp(int(std::lround(there->v)), 0, light_field.height - 1) : finding.v;
     const Image<std::uint16_t> picture = light_field.pixels->read(row[i]);
     std::transform(picture.row(v) + 3 * begin, picture.row(v) + 3 * end, epi.pixels.row(int(i)),
                    [&](std::uint16_t value) { return std::uint16_t(value >> shift); });
@@ -198,7 +199,9 @@ Image<std::uint16_t> samples_picture(const Finding& finding, const LightField& l
   std::vector<SampleCell> cells;
   for (int i = 0; i < light_field.num_views(); ++i) {
     const Radiance& seen = finding.curve.samples[i];
-    cells.push_back({light_field.views[i].s, light_field.views[i].t, {seen.r, seen.g, seen.b},
+    cells.push_back({light_field.views[i].s,
+                     light_field.views[i].t,
+                     {seen.r, seen.g, seen.b},
                      i == finding.view});
   }
   return draw_samples(cells);
@@ -230,8 +233,8 @@ void run(const Settings& settings, const RunControl& control) {
                         finding.v, control);
   read_curve(finding);
 
-  const std::string json = to_json(finding, light_field)
-                               .dump(2, ' ', false, ordered_json::error_handler_t::replace);
+  const std::string json =
+      to_json(finding, light_field).dump(2, ' ', false, ordered_json::error_handler_t::replace);
   if (folder) {
     write_png(folder->path() / "epi.png", epi_picture(finding, light_field, control), 8);
     write_png(folder->path() / "samples.png", samples_picture(finding, light_field), 8);
@@ -249,8 +252,10 @@ void run(const Settings& settings, const RunControl& control) {
 }  // namespace
 
 Run probe_command(CLI::App& app) {
-  app.description("Why a pixel has its depth: its scores at full resolution, before the median, "
-                  "coarser levels and other views");
+  app.description("Why a pixel has its depth: scores, samples, epipolar-plane image");
+  app.footer(
+      "The scores are those of the pixel at full resolution, before slanted support, the median, "
+      "coarser levels and\nother views have their say.");
   auto settings = std::make_shared<Settings>();
   settings->run.add_to(app);
   app.add_option("--at", settings->at, "The pixel, from the top left corner, which is 0 0")
@@ -259,9 +264,10 @@ Run probe_command(CLI::App& app) {
       ->required();
   app.add_option("--view", settings->view, "Name or index of a view, or centre")
       ->capture_default_str();
-  app.add_option("-o,--output", settings->output,
-                 "Folder for pictures: the epipolar-plane image, the colours that the views see, the "
-                 "score curve; replaced if it is an older result")
+  app.add_option(
+         "-o,--output", settings->output,
+         "Folder for pictures: the epipolar-plane image, the colours that the views see, the "
+         "score curve; replaced if it is an older result")
       ->type_name("DIR");
   app.add_flag("--json", settings->json, "Print JSON");
   return [settings](const RunControl& control) { run(*settings, control); };

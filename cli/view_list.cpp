@@ -15,7 +15,7 @@ std::optional<int> index_of(const std::string& text, const LightField& light_fie
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), index);
   if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
   if (index < 0 || index >= light_field.num_views())
-    throw Error(ErrorCode::kInvalidArgument, "--views " + text + ": there are views 0 … " +
+    throw Error(ErrorCode::kInvalidArgument, "view " + text + ": there are views 0 … " +
                                                  std::to_string(light_field.num_views() - 1));
   return index;
 }
@@ -27,7 +27,7 @@ int parse_view(const std::string& text, const LightField& light_field) {
   for (int i = 0; i < light_field.num_views(); ++i)
     if (light_field.views[i].name == text) return i;
   if (const auto index = index_of(text, light_field)) return *index;
-  throw Error(ErrorCode::kInvalidArgument, "there is no view " + text);
+  throw Error(ErrorCode::kInvalidArgument, "view " + text + ": no view has this name or index");
 }
 
 std::vector<int> parse_views(const std::string& text, const LightField& light_field) {

@@ -12,7 +12,8 @@ namespace gigaray {
 namespace {
 
 // RGB, as all pictures here; OpenCV's own order is never seen because nothing is converted.
-const cv::Scalar kPaper(255, 255, 255), kInk(40, 40, 40), kFaint(225, 225, 225), kGrey(130, 130, 130);
+const cv::Scalar kPaper(255, 255, 255), kInk(40, 40, 40), kFaint(225, 225, 225),
+    kGrey(130, 130, 130);
 const cv::Scalar kRed(214, 39, 40), kBlue(31, 119, 180), kYellow(255, 230, 0), kBlack(0, 0, 0);
 
 constexpr int kShift = 4;  // fractional bits of the coordinates given to OpenCV
@@ -24,8 +25,8 @@ cv::Point fine(double x, double y) {
   return {int(std::lround(x * (1 << kShift))), int(std::lround(y * (1 << kShift)))};
 }
 
-void draw_line(cv::Mat& canvas, double x0, double y0, double x1, double y1, const cv::Scalar& colour,
-               int thickness = 1) {
+void draw_line(cv::Mat& canvas, double x0, double y0, double x1, double y1,
+               const cv::Scalar& colour, int thickness = 1) {
   cv::line(canvas, fine(x0, y0), fine(x1, y1), colour, thickness, cv::LINE_AA, kShift);
 }
 
@@ -79,7 +80,8 @@ Image<std::uint16_t> draw_epi(const EpiDrawing& epi) {
   for (int v = 0; v < rows; ++v)
     std::copy_n(epi.pixels.row(v), columns * 3, pixels.ptr<std::uint8_t>(v));
   cv::resize(pixels, enlarged, {}, wide, tall, cv::INTER_NEAREST);
-  cv::Mat canvas(rows * tall + kMargin + kBottom, columns * wide + kLeft + kMargin, CV_8UC3, kPaper);
+  cv::Mat canvas(rows * tall + kMargin + kBottom, columns * wide + kLeft + kMargin, CV_8UC3,
+                 kPaper);
   cv::Mat inside = canvas({kLeft, kMargin, enlarged.cols, enlarged.rows});
   enlarged.copyTo(inside);
 
@@ -96,9 +98,12 @@ Image<std::uint16_t> draw_epi(const EpiDrawing& epi) {
   };
   draw_rails(kBlack, 3);
   draw_rails(kYellow, 1);
-  const cv::Rect pixel((epi.reference_u - epi.first_u) * wide, epi.reference_row * tall, wide, tall);
-  cv::rectangle(inside, cv::Rect(pixel.x - 2, pixel.y - 2, pixel.width + 4, pixel.height + 4), kPaper);
-  cv::rectangle(inside, cv::Rect(pixel.x - 1, pixel.y - 1, pixel.width + 2, pixel.height + 2), kRed);
+  const cv::Rect pixel((epi.reference_u - epi.first_u) * wide, epi.reference_row * tall, wide,
+                       tall);
+  cv::rectangle(inside, cv::Rect(pixel.x - 2, pixel.y - 2, pixel.width + 4, pixel.height + 4),
+                kPaper);
+  cv::rectangle(inside, cv::Rect(pixel.x - 1, pixel.y - 1, pixel.width + 2, pixel.height + 2),
+                kRed);
 
   const double bottom = kMargin + enlarged.rows;
   for (const double u : ticks(epi.first_u, epi.first_u + columns - 1, 12)) {
@@ -115,7 +120,7 @@ Image<std::uint16_t> draw_epi(const EpiDrawing& epi) {
     draw_text(canvas, number(epi.s[row], 3), kLeft - 8, y, 1.0,
               row == epi.reference_row ? kRed : kInk);
   }
-  draw_text(canvas, "s", 6, kMargin + y_of(epi.reference_row), 0.0);
+  draw_text(canvas, "s", kLeft - 8, bottom + 14, 1.0);
   return picture_of(canvas);
 }
 
@@ -131,7 +136,8 @@ Image<std::uint16_t> draw_samples(std::span<const SampleCell> cells) {
   const double pitch = std::clamp(kAcross / span, 8.0, 48.0);
   const int width = int(std::ceil((s_max - s_min + 1) * pitch));
   const int height = int(std::ceil((t_max - t_min + 1) * pitch));
-  cv::Mat canvas(height + kMargin + kBottom, std::max(width, 60) + kLeft + kMargin, CV_8UC3, kPaper);
+  cv::Mat canvas(height + kMargin + kBottom, std::max(width, 60) + kLeft + kMargin, CV_8UC3,
+                 kPaper);
   const auto x_of = [&](double s) { return kLeft + (s - s_min + 0.5) * pitch; };
   const auto y_of = [&](double t) { return kMargin + (t - t_min + 0.5) * pitch; };
 
@@ -223,7 +229,8 @@ Image<std::uint16_t> draw_scores(std::span<const float> scores, DisparityRange r
       draw_line(canvas, x, y_of(scores[i]), x_of(range.min + double(i + 1) * step),
                 y_of(scores[i + 1]), kBlue, 2);
     else
-      cv::circle(canvas, fine(x, y_of(scores[i])), 1 << kShift, kBlue, cv::FILLED, cv::LINE_AA, kShift);
+      cv::circle(canvas, fine(x, y_of(scores[i])), 1 << kShift, kBlue, cv::FILLED, cv::LINE_AA,
+                 kShift);
   }
   return picture_of(canvas);
 }

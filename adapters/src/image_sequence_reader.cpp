@@ -174,7 +174,8 @@ class ImageSequenceReader : public Reader {
     light_field.kind = LightFieldKind::k3D;
     if (direction == Travel::kAuto) {
       light_field.sign_is_assumed = true;
-      light_field.notes.push_back("the camera is assumed to move to the right as the numbers rise");
+      light_field.notes.push_back("the camera is assumed to move to the right as the "
+                                  "numbers rise (--direction states it)");
     }
     attach_pictures(light_field, std::move(series.files));
     return light_field;

@@ -69,15 +69,15 @@ void time_score(benchmark::State& state, KernelCase& score, int passes, double f
 }
 
 void declare_paper(const Rig& rig) {
-  constexpr int kIterations = 10;
+  const int kIterations = getenv("IT") ? atoi(getenv("IT")) : 10;
   // Mean-shift: 3 differences, 1 product and 2 fused for the distance, 1 fused and a maximum for the
   // kernel, 1 sum and 3 fused for the mean: 7 that multiply of 12. The score: 4 of 9.
-  constexpr double kFma = (7.0 * kIterations + 4.0) / (kIterations + 1);
+  const double kFma = (7.0 * kIterations + 4.0) / (kIterations + 1);
   auto score = std::make_shared<KernelCase>("density_score", shape_of(rig),
                                             every_iteration(kIterations));
-  const auto run = [score](benchmark::State& state) {
+  const auto run = [score, kIterations, kFma](benchmark::State& state) {
     score->make_ready();
-    fprintf(stderr,"changed %g\n",changed_by_last_iteration(score->shape(), kIterations));
+
     if (0 && changed_by_last_iteration(score->shape(), kIterations) < 0.95)
       throw Error(ErrorCode::kDevice, "mean-shift comes to rest before its last iteration: the rate "
                                       "would count work that was not done");

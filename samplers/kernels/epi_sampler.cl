@@ -11,12 +11,11 @@ static inline int locate(__global const float* views, int ref, int other, float 
   return 1;
 }
 
-// What view `other` sees of LANES neighbouring pixels (u .. u + LANES - 1, v) of `ref`, all under
-// hypothesis h. Returns 0 when it sees none of them.
-static inline int sample_lanes(__global const float* band, const BandParams p,
-                        __global const float* views, int ref, int other, int u, int v, float h,
-                        vfloat* colour, vfloat* inside) {
-  const float shift = snapped((views[ref] - views[other]) * h);
-  const float whole = floor(shift);
-  return sample_translated(band, p, other, u + (int)whole, shift - whole, v, 0.0f, colour, inside);
+// Where view `other` sees any block of `ref` under hypothesis h.
+static inline BlockShift block_shift(__global const float* views, int ref, int other, float h) {
+  BlockShift shift;
+  shift.whole_u = split_snapped((views[ref] - views[other]) * h, &shift.fraction_u);
+  shift.whole_v = 0;
+  shift.fraction_v = 0.0f;
+  return shift;
 }

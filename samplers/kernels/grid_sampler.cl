@@ -11,14 +11,12 @@ static inline int locate(__global const float* views, int ref, int other, float 
   return 1;
 }
 
-// What view `other` sees of LANES neighbouring pixels (u .. u + LANES - 1, v) of `ref`, all under
-// hypothesis h. Returns 0 when it sees none of them.
-static inline int sample_lanes(__global const float* band, const BandParams p,
-                        __global const float* views, int ref, int other, int u, int v, float h,
-                        vfloat* colour, vfloat* inside) {
-  const float shift_u = snapped((views[2 * ref] - views[2 * other]) * h);
-  const float shift_v = snapped((views[2 * ref + 1] - views[2 * other + 1]) * h);
-  const float whole_u = floor(shift_u), whole_v = floor(shift_v);
-  return sample_translated(band, p, other, u + (int)whole_u, shift_u - whole_u, v + (int)whole_v,
-                           shift_v - whole_v, colour, inside);
+// Where view `other` sees any block of `ref` under hypothesis h.
+static inline BlockShift block_shift(__global const float* views, int ref, int other, float h) {
+  BlockShift shift;
+  shift.whole_u =
+      split_snapped((views[2 * ref] - views[2 * other]) * h, &shift.fraction_u);
+  shift.whole_v =
+      split_snapped((views[2 * ref + 1] - views[2 * other + 1]) * h, &shift.fraction_v);
+  return shift;
 }

@@ -28,13 +28,13 @@ class Info : public ProgramTest {
 TEST_F(Frame, HelpListsTheCommands) {
   const Result result = run("--help");
   EXPECT_EQ(result.exit_code, 0);
-  for (const std::string command : {"info", "depth", "synth", "evaluate", "devices"})
+  for (const std::string command : {"info", "depth", "synth", "evaluate", "probe", "devices"})
     EXPECT_NE(result.out.find("  " + command), std::string::npos) << result.out;
   EXPECT_EQ(result.err, "");
 }
 
 TEST_F(Frame, EveryCommandHasHelp) {
-  for (const std::string command : {"info", "depth", "synth", "evaluate", "devices"}) {
+  for (const std::string command : {"info", "depth", "synth", "evaluate", "probe", "devices"}) {
     const Result result = run(command + " --help");
     EXPECT_EQ(result.exit_code, 0) << command;
     EXPECT_NE(result.out.find("Usage: gigaray " + command), std::string::npos) << result.out;

@@ -67,6 +67,8 @@ TEST(DepthOptions, AValueOutOfRangeIsNamedWithItsField) {
       {"support.radius", "9", [](auto& o) { o.support.radius = 9; }},
       {"support.sigma_colour", "0", [](auto& o) { o.support.sigma_colour = 0; }},
       {"support.sigma_space", "0", [](auto& o) { o.support.sigma_space = 0; }},
+      {"support.max_slope", "-1", [](auto& o) { o.support.max_slope = -1; }},
+      {"support.slanted", "radius", [](auto& o) { o.support.radius = 0; }},
       {"winner.median_radius", "9", [](auto& o) { o.winner.median_radius = 9; }},
       {"winner.median_tolerance", "0", [](auto& o) { o.winner.median_tolerance = 0; }},
       {"propagation.tolerance", "0", [](auto& o) { o.propagation.tolerance = 0; }},

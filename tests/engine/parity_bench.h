@@ -14,6 +14,7 @@
 
 #include "gigaray/backend.h"
 #include "gigaray/samplers/any_sampler.h"
+#include "opencl/opencl_backend.h"
 #include "support/analytic_field.h"
 
 namespace gigaray::testing_support {
@@ -107,13 +108,14 @@ class ParityBench {
  public:
   ParityBench(const ParityCase& size, const DepthOptions& options,
               const std::vector<View>& views = ParityRig<S>::irregular(),
-              const HypothesisRange& hypotheses = {-1.31, 1.73, 19})
+              const HypothesisRange& hypotheses = {-1.31, 1.73, 19},
+              const opencl::TuningOverrides& tuning = {})
       : size_(size), hypotheses_(hypotheses), sampler_(views), random_(size.width) {
     const BackendSetup setup{options, hypotheses_, ParityRig<S>::kKind,
                              size.encoding == BandEncoding::kBits16 ? 16 : 8};
     reference = make_reference_backend(sampler_, setup);
-    opencl = make_opencl_backend(sampler_, setup, "");
-    constexpr int kHalo = 12;  // more than any window reaches
+    opencl = opencl::make_tuned_backend(sampler_, setup, "", tuning);
+    constexpr int kHalo = kSlopeReach + 3;  // no window reaches farther
     loaded = sampler_.at_level(size.level)
                  .rows_needed(grown(size.rows, kHalo, size.height), hypotheses_, size.height);
     fill(views);
@@ -177,6 +179,23 @@ class ParityBench {
         map.row(v)[u] = uniform() < share ? float(hypotheses_.min + uniform() * (hypotheses_.max -
                                                                                   hypotheses_.min))
                                           : kNoEstimate;
+    return map;
+  }
+  /// Estimates of a slanted surface with noise, outliers and holes.
+  StripMap<float> slanted_disparity(RowRange rows) {
+    StripMap<float> map(width(), rows);
+    for (int v = rows.begin; v < rows.end; ++v)
+      for (int u = 0; u < width(); ++u) {
+        map.row(v)[u] = float(0.01 * u - 0.02 * v + 0.05 * uniform() + (uniform() < 0.1 ? 1 : 0));
+        if (uniform() < 0.2) map.row(v)[u] = kNoEstimate;
+      }
+    return map;
+  }
+  StripMap<Slope> random_slopes(RowRange rows) {
+    StripMap<Slope> map(width(), rows);
+    for (int v = rows.begin; v < rows.end; ++v)
+      for (int u = 0; u < width(); ++u)
+        map.row(v)[u] = {float(0.6 * (uniform() - 0.5)), float(0.6 * (uniform() - 0.5))};
     return map;
   }
   StripMap<float> random_values(RowRange rows) {
@@ -244,6 +263,15 @@ inline Difference compare(const StripMap<Radiance>& a, const StripMap<Radiance>&
       difference.add(x.r, y.r);
       difference.add(x.g, y.g);
       difference.add(x.b, y.b);
+    }
+  return difference;
+}
+inline Difference compare(const StripMap<Slope>& a, const StripMap<Slope>& b, RowRange rows) {
+  Difference difference;
+  for (int v = rows.begin; v < rows.end; ++v)
+    for (int u = 0; u < a.width(); ++u) {
+      difference.add(a.row(v)[u].along_u, b.row(v)[u].along_u);
+      difference.add(a.row(v)[u].along_v, b.row(v)[u].along_v);
     }
   return difference;
 }

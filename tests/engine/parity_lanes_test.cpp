@@ -4,17 +4,16 @@
 // run is tested here too.
 #include <gtest/gtest.h>
 
-#include "engine/cache_fixture.h"
 #include "engine/parity_bench.h"
-#include "opencl/tuning.h"
 
 namespace gigaray::testing_support {
 namespace {
 
 constexpr double kRounding = 4e-6, kScore = 1e-4;  // as in parity_test.cpp
 constexpr ParityCase kCase{93, 23, {7, 12}, BandEncoding::kBits16};
+constexpr HypothesisRange kHypotheses{-1.31, 1.73, 19};
 
-class ParityLanes : public CacheFixture {
+class ParityLanes : public testing::Test {
  protected:
   static void TearDownTestSuite() { ParityTable::instance().print(); }
 
@@ -25,19 +24,20 @@ class ParityLanes : public CacheFixture {
     EXPECT_EQ(difference.one_sided + difference.apart, 0) << stage;
   }
 
-  static void tune(int lanes, int group, int stage) {
+  static opencl::TuningOverrides tuned(int lanes, int group, int stage) {
+    opencl::TuningOverrides overrides;
     for (const KernelTuning& kernel : tuning_in_force(select_device())) {
-      opencl::Tuning tuning{{"LANES", lanes}, {"GROUP", group}};
-      if (kernel.parameters.count("STAGE")) tuning["STAGE"] = stage;
-      opencl::save_user_tuning(select_device(), kernel.kernel, tuning);
+      overrides[kernel.kernel] = {{"LANES", lanes}, {"GROUP", group}};
+      if (kernel.parameters.contains("STAGE")) overrides[kernel.kernel]["STAGE"] = stage;
     }
+    return overrides;
   }
 
-  static void check_paper(const std::string& lanes) {
+  static void check_paper(const std::string& lanes, const opencl::TuningOverrides& tuning) {
     DepthOptions options = paper_options();
     options.score.mean_shift_iterations = 2;
     options.winner.refine = true;
-    ParityBench<EpiSampler> bench(kCase, options);
+    ParityBench<EpiSampler> bench(kCase, options, irregular_row(), kHypotheses, tuning);
     const RowRange rows = bench.rows();
     StripMap<float> expected(bench.width(), rows), actual = expected, lead = expected;
     bench.reference->edge_confidence(1, rows, expected);
@@ -69,12 +69,23 @@ class ParityLanes : public CacheFixture {
     bench.reference->bilateral_median(2, rows, 2, 0.1f, in, expected);
     bench.opencl->bilateral_median(2, rows, 2, 0.1f, in, actual);
     expect_within("median" + lanes, compare(expected, actual, rows), 0);
+
+    const RowRange small{(rows.begin + 1) / 2, (rows.end + 1) / 2};
+    std::vector<float> expected_small(std::size_t(small.size()) * bench.sampler().num_views() * 3 *
+                                      ((bench.width() + 1) / 2));
+    auto actual_small = expected_small;
+    bench.reference->downsample(small, expected_small.data());
+    bench.opencl->downsample(small, actual_small.data());
+    Difference difference;
+    for (std::size_t i = 0; i < actual_small.size(); ++i)
+      difference.add(expected_small[i], actual_small[i]);
+    expect_within("downsampling" + lanes, difference, kRounding);
   }
 
-  static void check_auto(const std::string& lanes) {
+  static void check_auto(const std::string& lanes, const opencl::TuningOverrides& tuning) {
     DepthOptions options = auto_options();
     options.score.gradient_bandwidth = 0.02f;
-    ParityBench<EpiSampler> bench(kCase, options);
+    ParityBench<EpiSampler> bench(kCase, options, irregular_row(), kHypotheses, tuning);
     const RowRange rows = bench.rows(), around = bench.around(options.support.radius);
     const auto all = bench.all_todo(around);
     const auto full = bench.full_bounds(around);
@@ -86,31 +97,37 @@ class ParityLanes : public CacheFixture {
     for (Backend* backend : {bench.reference.get(), bench.opencl.get()})
       backend->score_support(0, rows, todo, bounds);
     expect_within("score support" + lanes, compare_scores(bench, rows, todo, bounds, 1), kScore);
+    const auto slopes = bench.random_slopes(rows);
+    for (Backend* backend : {bench.reference.get(), bench.opencl.get()})
+      backend->slanted_support(0, rows, todo, bounds, slopes);
+    expect_within("slanted support" + lanes, compare_scores(bench, rows, todo, bounds, 1), kScore);
+
+    const auto in = bench.slanted_disparity(bench.around(kSlopeReach));
+    StripMap<Slope> expected(bench.width(), rows), actual = expected;
+    bench.reference->slope_fit(2, rows, in, expected);
+    bench.opencl->slope_fit(2, rows, in, actual);
+    expect_within("slope fit" + lanes, compare(expected, actual, rows), kScore);
   }
 };
 
 TEST_F(ParityLanes, OneLaneInGroupsOf64AsOnAGpu) {
-  tune(1, 64, 0);
-  check_paper(", 1 lane");
-  check_auto(", 1 lane");
+  check_paper(", 1 lane", tuned(1, 64, 0));
+  check_auto(", 1 lane", tuned(1, 64, 0));
 }
 
 TEST_F(ParityLanes, FourLanesInGroupsOf3) {
-  tune(4, 3, 1);
-  check_paper(", 4 lanes");
-  check_auto(", 4 lanes");
+  check_paper(", 4 lanes", tuned(4, 3, 1));
+  check_auto(", 4 lanes", tuned(4, 3, 1));
 }
 
 TEST_F(ParityLanes, EightLanesNotStaged) {
-  tune(8, 1, 0);
-  check_paper(", 8 lanes");
-  check_auto(", 8 lanes");
+  check_paper(", 8 lanes", tuned(8, 1, 0));
+  check_auto(", 8 lanes", tuned(8, 1, 0));
 }
 
 TEST_F(ParityLanes, SixteenLanes) {
-  tune(16, 1, 1);
-  check_paper(", 16 lanes");
-  check_auto(", 16 lanes");
+  check_paper(", 16 lanes", tuned(16, 1, 1));
+  check_auto(", 16 lanes", tuned(16, 1, 1));
 }
 
 }  // namespace

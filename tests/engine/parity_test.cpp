@@ -152,12 +152,28 @@ TYPED_TEST(Parity, SupportedScores) {
     const auto full = bench.full_bounds(around);
     const auto todo = bench.random_todo(bench.rows());
     const auto bounds = bench.random_bounds(bench.rows());
+    const auto slopes = bench.random_slopes(bench.rows());
     for (Backend* backend : {bench.reference.get(), bench.opencl.get()}) {
       backend->density_score(0, around, all, full);
       backend->score_support(0, bench.rows(), todo, bounds);
     }
     this->expect_within("score support",
                         compare_scores(bench, bench.rows(), todo, bounds, 1), kScore);
+    for (Backend* backend : {bench.reference.get(), bench.opencl.get()})
+      backend->slanted_support(0, bench.rows(), todo, bounds, slopes);
+    this->expect_within("slanted support",
+                        compare_scores(bench, bench.rows(), todo, bounds, 1), kScore);
+  }
+}
+
+TYPED_TEST(Parity, Slopes) {
+  for (const ParityCase& size : parity_cases()) {
+    ParityBench<TypeParam> bench(size, auto_options());
+    const auto in = bench.slanted_disparity(bench.around(kSlopeReach));
+    StripMap<Slope> expected(bench.width(), bench.rows()), actual = expected;
+    bench.reference->slope_fit(2, bench.rows(), in, expected);
+    bench.opencl->slope_fit(2, bench.rows(), in, actual);
+    this->expect_within("slope fit", compare(expected, actual, bench.rows()), kScore);
   }
 }
 

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/cache_fixture.h"
+#include "gigaray/synthetic.h"
 #include "support/analytic_field.h"
 #include "support/depth_result.h"
 #include "support/errors.h"
@@ -58,6 +59,26 @@ TEST(Pipeline, PositiveDisparityIsNearerAndNegativeIsFarther) {
                 0.95)
           << preset << " " << truth;
     }
+}
+
+TEST(Pipeline, SlantedPlanesAreFound) {
+  const RunControl control;
+  for (const auto& [views_s, views_t] : {std::pair(9, 1), std::pair(5, 5)}) {
+    SyntheticOptions scene;
+    scene.scene = "planes";
+    scene.width = 121;
+    scene.height = 81;
+    scene.views_s = views_s;
+    scene.views_t = views_t;
+    const SyntheticLightField field = render_synthetic(scene, control);
+    DepthOptions options = job("auto", {-1.2, 1.2}, 61);
+    options.views = {centre_view(field.light_field)};
+    const DepthResult slanted = run(field.light_field, options);
+    EXPECT_GT(share_within(slanted, field.disparity, 0.07), 0.9) << views_s << "x" << views_t;
+    options.support.slanted = false;
+    EXPECT_GT(share_within(slanted, field.disparity, 0.02),
+              share_within(run(field.light_field, options), field.disparity, 0.02));
+  }
 }
 
 TEST(Pipeline, AnOccludersEdgeStaysSharp) {

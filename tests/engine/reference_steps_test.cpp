@@ -14,6 +14,7 @@
 #include "reference/edge_confidence.h"
 #include "reference/propagation.h"
 #include "reference/score_support.h"
+#include "reference/slope_fit.h"
 #include "reference/unpack_channels.h"
 #include "reference/winner.h"
 #include "support/analytic_field.h"
@@ -263,6 +264,55 @@ TEST(ReferenceSupport, NeighboursOfTheSameColourDecide) {
   EXPECT_NEAR(supported.at(2, 1, 0), (8 * 0.2 + 1) / 9, 1e-5);
   EXPECT_NEAR(supported.at(3, 1, 0), (5 * 0.2 + 1) / 6, 1e-5) << "its neighbours at the right don't count";
   EXPECT_NEAR(supported.at(4, 1, 0), 0.9, 1e-5);
+}
+
+TEST(ReferenceSupport, AlongTheSlopeASlantedSurfaceKeepsItsPeak) {
+  // Hypothesis i scores 1 - |i - u| / 8: the surface rises by a hypothesis per pixel.
+  const Band flat = band_of(15, 1, 1, 3, [](int, int, int, int) { return 0.5; });
+  const HypothesisRange hypotheses{0, 7, 15};  // steps of 0.5
+  Scores scores({0, 1}, 15, 15);
+  for (int u = 0; u < 15; ++u)
+    for (int i = 0; i < 15; ++i) scores.at(u, 0, i) = 1 - std::abs(i - u) / 8.0f;
+  StripMap<std::uint8_t> todo(15, {0, 1});
+  StripMap<HypothesisBounds> bounds(15, {0, 1});
+  StripMap<Slope> slopes(15, {0, 1});
+  todo.row(0)[7] = 1;
+  bounds.row(0)[7] = {0, 14};
+  slopes.row(0)[7] = {0.5f, 0};
+  const SupportOptions support{3, 0.03f, 1e6f};
+  const Scores plain = reference::score_support(flat, 0, {0, 1}, support, todo, bounds, scores);
+  const Scores slanted = reference::slanted_support(flat, 0, {0, 1}, support, hypotheses, todo, bounds,
+                                                    slopes, scores);
+  EXPECT_NEAR(slanted.at(7, 0, 7), 1, 1e-5);
+  EXPECT_NEAR(plain.at(7, 0, 7), 1 - 12.0 / 7 / 8, 1e-5);
+}
+
+TEST(ReferenceSlopes, OfAPlaneAreFoundDespiteHolesAndOutliers) {
+  const Band flat = band_of(61, 41, 1, 3, [](int, int, int, int) { return 0.5; });
+  StripMap<float> in(61, {0, 41});
+  for (int v = 0; v < 41; ++v)
+    for (int u = 0; u < 61; ++u) {
+      in.row(v)[u] = 0.013f * float(u) - 0.007f * float(v);
+      if ((u + 2 * v) % 7 == 0) in.row(v)[u] = kNoEstimate;
+      if ((u + v) % 11 == 0) in.row(v)[u] += 3;
+    }
+  StripMap<Slope> slopes(61, {0, 41});
+  reference::slope_fit(flat, 0, {0, 41}, 0.3f, in, slopes);
+  EXPECT_NEAR(slopes.row(20)[31].along_u, 0.013, 5e-4);
+  EXPECT_NEAR(slopes.row(20)[31].along_v, -0.007, 5e-4);
+  reference::slope_fit(flat, 0, {20, 21}, 0.005f, in, slopes);
+  EXPECT_EQ(slopes.row(20)[31].along_u, 0.005f) << "no steeper than allowed";
+}
+
+TEST(ReferenceSlopes, NothingIsSaidWithoutAnEstimate) {
+  const Band flat = band_of(31, 31, 1, 3, [](int, int, int, int) { return 0.5; });
+  StripMap<float> in(31, {0, 31});
+  for (int v = 0; v < 31; ++v)
+    for (int u = 0; u < 31; ++u) in.row(v)[u] = u == 15 ? kNoEstimate : 0.01f * float(u);
+  StripMap<Slope> slopes(31, {0, 31});
+  reference::slope_fit(flat, 0, {0, 31}, 0.3f, in, slopes);
+  EXPECT_EQ(slopes.row(15)[15].along_u, 0);
+  EXPECT_GT(slopes.row(15)[16].along_u, 0.009f);
 }
 
 TEST(ReferenceDownsample, KeepsConstantsAndPutsPixelIOnPixel2I) {

@@ -22,6 +22,9 @@
 #define SLICE(i) ((i) * GROUP + (int)get_local_id(0))
 #endif
 
+// Before a loop over channels: kept as a loop, it keeps the channels in memory.
+#define UNROLL _Pragma("unroll")
+
 #if LANES == 1
 typedef float vfloat;
 typedef int vint;
@@ -80,9 +83,15 @@ static inline __global const float* band_row(__global const float* band, const B
 // the last column is inside the picture, and a whole shift could cost a second row.
 #define SNAP 1e-4f
 
-inline float snapped(float x) {
-  const float whole = floor(x + 0.5f);
-  return fabs(x - whole) < SNAP ? whole : x;
+// The whole number of pixels in x; the rest, in [0, 1), to fraction. Without floor(), which is a call
+// with branches on some CPUs.
+static inline int split_snapped(float x, float* fraction) {
+  int whole = (int)x;
+  whole -= x < (float)whole;
+  const float rest = x - (float)whole;
+  const int up = rest > 1.0f - SNAP;
+  *fraction = up || rest < SNAP ? 0.0f : rest;
+  return whole + up;
 }
 
 // Catmull-Rom weights of the taps at -1, 0, 1, 2 for a fraction f in [0, 1).
@@ -101,33 +110,54 @@ static inline vfloat interpolate_row(__global const float* x, float f, float4 w)
 #endif
 }
 
-// Colours of LANES neighbouring positions (xi + fx + lane, yi + fy) of a view, fx and fy in [0, 1).
-// inside: 1 for lanes within the picture, else 0. Returns 0 when no lane is, then nothing is set.
-static inline int sample_translated(__global const float* band, const BandParams p, int view, int xi,
-                             float fx, int yi, float fy, vfloat* colour, vfloat* inside) {
-  const int last_column = p.width - 1 - (fx > 0.0f);
-  if (yi < 0 || yi + (fy > 0.0f) > p.height - 1 || xi + LANES <= 0 || xi > last_column) return 0;
-  const vint x = xi + VLANES;
-  *inside = VSELECT((vfloat)(0.0f), (vfloat)(1.0f), x >= 0 && x <= last_column);
+// Where a view sees a block of LANES pixels: row, column of the first one, fractions in [0, 1).
+typedef struct {
+  int x, y;
+  float fx, fy;
+} BlockPosition;
 
-  const float4 wx = CUBIC ? cubic_weights(fx) : (float4)(0.0f);
-  __global const float* row = band_row(band, p, view, yi) + xi;
-  for (int c = 0; c < CHANNELS; ++c) colour[c] = interpolate_row(row + c * p.stride, fx, wx);
-  if (fy > 0.0f) {
+// Returns 0 when no lane is inside the picture. inside: 1 for lanes that are, else 0.
+static inline int place_block(const BandParams p, const BlockShift shift, int u, int v,
+                              BlockPosition* at, vfloat* inside) {
+  at->x = u + shift.whole_u;
+  at->y = v + shift.whole_v;
+  at->fx = shift.fraction_u;
+  at->fy = shift.fraction_v;
+  const int last_column = p.width - 1 - (at->fx > 0.0f);
+  if (at->y < 0 || at->y + (at->fy > 0.0f) > p.height - 1) return 0;
+  if (at->x >= 0 && at->x + LANES - 1 <= last_column) {
+    *inside = (vfloat)(1.0f);
+    return 1;
+  }
+  if (at->x + LANES <= 0 || at->x > last_column) return 0;
+  const vint x = at->x + VLANES;
+  *inside = VSELECT((vfloat)(0.0f), (vfloat)(1.0f), x >= 0 && x <= last_column);
+  return 1;
+}
+
+// Channels [first, end) of a view there; anything in lanes outside the picture.
+static inline __attribute__((always_inline)) void sample_block(__global const float* band, const BandParams p, int view,
+                                const BlockPosition at, int first, int end, vfloat* colour) {
+  const float4 wx = CUBIC ? cubic_weights(at.fx) : (float4)(0.0f);
+  __global const float* row = band_row(band, p, view, at.y) + at.x;
+  UNROLL
+  for (int c = first; c < end; ++c) colour[c] = interpolate_row(row + c * p.stride, at.fx, wx);
+  if (at.fy > 0.0f) {
     const size_t next = (size_t)p.num_views * CHANNELS * p.stride;
 #if CUBIC
-    const float4 wy = cubic_weights(fy);
-    __global const float* above = yi > 0 ? row - next : row;
+    const float4 wy = cubic_weights(at.fy);
+    __global const float* above = at.y > 0 ? row - next : row;
     __global const float* below = row + next;
-    __global const float* below2 = yi + 2 < p.height ? below + next : below;
-    for (int c = 0; c < CHANNELS; ++c)
-      colour[c] = wy.s0 * interpolate_row(above + c * p.stride, fx, wx) + wy.s1 * colour[c] +
-                  wy.s2 * interpolate_row(below + c * p.stride, fx, wx) +
-                  wy.s3 * interpolate_row(below2 + c * p.stride, fx, wx);
+    __global const float* below2 = at.y + 2 < p.height ? below + next : below;
+    UNROLL
+    for (int c = first; c < end; ++c)
+      colour[c] = wy.s0 * interpolate_row(above + c * p.stride, at.fx, wx) + wy.s1 * colour[c] +
+                  wy.s2 * interpolate_row(below + c * p.stride, at.fx, wx) +
+                  wy.s3 * interpolate_row(below2 + c * p.stride, at.fx, wx);
 #else
-    for (int c = 0; c < CHANNELS; ++c)
-      colour[c] += fy * (interpolate_row(row + next + c * p.stride, fx, wx) - colour[c]);
+    UNROLL
+    for (int c = first; c < end; ++c)
+      colour[c] += at.fy * (interpolate_row(row + next + c * p.stride, at.fx, wx) - colour[c]);
 #endif
   }
-  return 1;
 }

@@ -5,9 +5,10 @@
 //   band    [row][view][channel][stride]
 //   todo    [row][pitch] bytes, 0: nothing to do; a block of LANES zeros costs nothing
 //   bounds  [row][pitch] (first, last) hypothesis to test
+//   shifts  [hypothesis][view], from block_shifts
 //   scores  [row][hypothesis][pitch]; -1 where too few views see the point. Hypotheses outside the
 //           union of a block's bounds are not written.
-//   staged  local memory, 3 vectors per view: the samples, read once and used by every mean-shift
+//   staged  local memory, 4 vectors per view: the samples, read once and used by every mean-shift
 //           iteration (STAGE 1: CPUs; with STAGE 0 they are fetched again each time)
 // One work-item per (block of LANES pixels, row).
 
@@ -27,45 +28,133 @@
 #define MOVE_BOUND 1e-4f
 #endif
 
-// A colour that no kernel reaches stands for "not inside the picture".
-#define FAR_AWAY 1e4f
+// The same for all pixels of a view: worked out once. One work-item per (view, hypothesis).
+__kernel void block_shifts(__global const float* views, const int ref, const int num_views,
+                           const HypothesisParams hypotheses, __global BlockShift* shifts) {
+  const int k = get_global_id(0), i = get_global_id(1);
+  shifts[i * num_views + k] = block_shift(views, ref, k, hypotheses.min + i * hypotheses.step);
+}
 
-// Colours of view k under a hypothesis; FAR_AWAY where it sees nothing. Adds to count where it does.
-static inline void sample_or_far(__global const float* band, const BandParams p,
-                          __global const float* views, int ref, int k, int u, int v, float h,
-                          vfloat* colour, vfloat* count) {
+// By halves: any() goes through the lanes one by one under PoCL.
+static inline float largest_lane(vfloat x) {
+#if LANES == 1
+  return x;
+#else
+#if LANES == 16
+  const float8 x8 = max(x.lo, x.hi);
+#endif
+#if LANES == 8
+  const float8 x8 = x;
+#endif
+#if LANES >= 8
+  const float4 x4 = max(x8.lo, x8.hi);
+#else
+  const float4 x4 = x;
+#endif
+  const float2 x2 = max(x4.lo, x4.hi);
+  return max(x2.x, x2.y);
+#endif
+}
+
+#if !GRADIENT
+// A sample of a view as mean-shift wants it: the colour relative to the pixel's own, in units of the
+// bandwidth, and its squared length. With them the kernel around a mean m (in the same units) is
+//   1 - |x - m|^2 = (1 - |m|^2) - |x|^2 + 2 m x
+// which takes fewer operations than differences do, and nothing cancels: m starts at 0 and moves by
+// less than 1 in an iteration.
+typedef struct {
+  vfloat red, green, blue, length2;
+} Sample;
+
+// A squared length that no kernel reaches stands for "not inside the picture".
+#define FAR_AWAY 1e8f
+
+// Sample of view k; adds 1 to count in lanes where it sees something.
+static inline Sample take_sample(__global const float* band, const BandParams p, int k,
+                                 const BlockShift shift, int u, int v, const vfloat* own,
+                                 float inverse_h, vfloat* count) {
+  Sample sample = {0.0f, 0.0f, 0.0f, FAR_AWAY};
+  BlockPosition at;
   vfloat inside;
-  if (sample_lanes(band, p, views, ref, k, u, v, h, colour, &inside)) {
-    *count += inside;
-    colour[0] = VSELECT((vfloat)(FAR_AWAY), colour[0], inside > 0.0f);
-  } else {
-    colour[0] = colour[1] = colour[2] = (vfloat)(FAR_AWAY);
-  }
+  if (!place_block(p, shift, u, v, &at, &inside)) return sample;
+  vfloat colour[3];
+  sample_block(band, p, k, at, 0, 3, colour);
+  sample.red = (colour[0] - own[0]) * inverse_h;
+  sample.green = (colour[1] - own[1]) * inverse_h;
+  sample.blue = (colour[2] - own[2]) * inverse_h;
+  const vfloat length2 =
+      sample.red * sample.red + sample.green * sample.green + sample.blue * sample.blue;
+  sample.length2 = VSELECT((vfloat)(FAR_AWAY), length2, inside > 0.0f);
+  *count += inside;
+  return sample;
 }
 
-// Epanechnikov kernel (eq. 4) of a colour around a mean.
-static inline vfloat epanechnikov(vfloat red, vfloat green, vfloat blue, const vfloat* mean,
-                           float inverse_h2) {
-  const vfloat r = red - mean[0], g = green - mean[1], b = blue - mean[2];
-  return max(1.0f - (r * r + g * g + b * b) * inverse_h2, (vfloat)(0.0f));
+// What the kernels of all samples have in common.
+typedef struct {
+  vfloat offset, red, green, blue;  // 1 - |m|^2, 2 m
+} Mean;
+
+// Epanechnikov kernel (eq. 4) of a sample around a mean.
+static inline vfloat epanechnikov(const Sample x, const Mean m) {
+  return max(m.red * x.red + (m.green * x.green + (m.blue * x.blue + (m.offset - x.length2))),
+             (vfloat)(0.0f));
 }
 
-// Sums of the kernels, and of the colours weighed by them, that a mean-shift step needs.
+// Sums of the kernels, and of the samples weighed by them, that a mean-shift step needs.
 typedef struct {
   vfloat weights, red, green, blue;
 } MeanShiftSums;
 
-static inline void add_sample(MeanShiftSums* sums, vfloat red, vfloat green, vfloat blue,
-                       const vfloat* mean, float inverse_h2) {
-  const vfloat w = epanechnikov(red, green, blue, mean, inverse_h2);
+static inline void add_sample(MeanShiftSums* sums, const Sample x, vfloat w) {
   sums->weights += w;
-  sums->red += w * red;
-  sums->green += w * green;
-  sums->blue += w * blue;
+  sums->red += w * x.red;
+  sums->green += w * x.green;
+  sums->blue += w * x.blue;
 }
 
+// Mean-shift step (eq. 5); where no sample is near, the mean stays. Returns the largest squared
+// distance that a lane moves by.
+static inline float move(Mean* mean, const MeanShiftSums sums) {
+  const vfloat scale = 2.0f / max(sums.weights, (vfloat)(1e-12f));
+  const vfloat red = VSELECT(mean->red, sums.red * scale, sums.weights > 0.0f);
+  const vfloat green = VSELECT(mean->green, sums.green * scale, sums.weights > 0.0f);
+  const vfloat blue = VSELECT(mean->blue, sums.blue * scale, sums.weights > 0.0f);
+  const vfloat dr = red - mean->red, dg = green - mean->green, db = blue - mean->blue;
+  mean->red = red;
+  mean->green = green;
+  mean->blue = blue;
+  mean->offset = 1.0f - 0.25f * (red * red + green * green + blue * blue);
+  return 0.25f * largest_lane(dr * dr + dg * dg + db * db);
+}
+
+static inline void stage(__local vfloat* staged, int k, const Sample x) {
+  staged[SLICE(4 * k)] = x.red;
+  staged[SLICE(4 * k + 1)] = x.green;
+  staged[SLICE(4 * k + 2)] = x.blue;
+  staged[SLICE(4 * k + 3)] = x.length2;
+}
+
+static inline Sample staged_sample(__local const vfloat* staged, int k) {
+  const Sample x = {staged[SLICE(4 * k)], staged[SLICE(4 * k + 1)], staged[SLICE(4 * k + 2)],
+                    staged[SLICE(4 * k + 3)]};
+  return x;
+}
+
+// STAGE 1: what the first iteration stored; else taken again.
+static inline Sample sample_again(__local const vfloat* staged, __global const float* band,
+                                  const BandParams p, int k, __global const BlockShift* shifts,
+                                  int u, int v, const vfloat* own, float inverse_h) {
+#if STAGE
+  return staged_sample(staged, k);
+#else
+  vfloat ignored = (vfloat)(0.0f);
+  return take_sample(band, p, k, shifts[k], u, v, own, inverse_h, &ignored);
+#endif
+}
+#endif
+
 __kernel void density_score(__global const float* band, const BandParams p, const StripParams strip,
-                            __global const float* views, const HypothesisParams hypotheses,
+                            __global const BlockShift* shifts, const HypothesisParams hypotheses,
                             __global const uchar* todo, __global const ushort2* bounds,
                             const float bandwidth, const float gradient_bandwidth,
                             const float gradient_share, const int min_views,
@@ -86,81 +175,69 @@ __kernel void density_score(__global const float* band, const BandParams p, cons
 
   vfloat own[CHANNELS];
   __global const float* here = band_row(band, p, strip.ref, v) + u;
+  UNROLL
   for (int c = 0; c < CHANNELS; ++c) own[c] = VLOAD(here + c * p.stride);
+  const float inverse_h = 1.0f / bandwidth;
 
   for (int i = first; i <= last; ++i) {
-    const float h = hypotheses.min + i * hypotheses.step;
+    __global const BlockShift* shift = shifts + (size_t)i * p.num_views;
     vfloat count = (vfloat)(0.0f), density = (vfloat)(0.0f);
-    vfloat colour[CHANNELS];
 #if GRADIENT
-    vfloat inside;
-    const float inverse_h = 1.0f / bandwidth, inverse_g = 1.0f / gradient_bandwidth;
+    const float inverse_g = 1.0f / gradient_bandwidth;
     for (int k = 0; k < p.num_views; ++k) {
-      if (!sample_lanes(band, p, views, strip.ref, k, u, v, h, colour, &inside)) continue;
+      BlockPosition at;
+      vfloat inside;
+      if (!place_block(p, shift[k], u, v, &at, &inside)) continue;
       count += inside;
+      vfloat colour[CHANNELS];
+      sample_block(band, p, k, at, 0, 3, colour);
       const vfloat r = colour[0] - own[0], g = colour[1] - own[1], b = colour[2] - own[2];
+      const vfloat k_colour =
+          inside * max(1.0f - sqrt(r * r + g * g + b * b) * inverse_h, (vfloat)(0.0f));
+      // Another colour is an occluder: its gradient is not asked for.
+      if (!(largest_lane(k_colour) > 0.0f)) continue;
+      sample_block(band, p, k, at, 3, CHANNELS, colour);
       const vfloat gx = colour[3] - own[3], gy = colour[4] - own[4];
-      const vfloat k_colour = max(1.0f - sqrt(r * r + g * g + b * b) * inverse_h, (vfloat)(0.0f));
       const vfloat k_gradient = max(1.0f - sqrt(gx * gx + gy * gy) * inverse_g, (vfloat)(0.0f));
-      // The gate keeps an occluder of another colour from scoring by its gradient.
-      density += inside * ((1.0f - gradient_share) * k_colour +
-                           gradient_share * k_gradient * min(4.0f * k_colour, (vfloat)(1.0f)));
+      density += (1.0f - gradient_share) * k_colour +
+                 gradient_share * k_gradient * min(4.0f * k_colour, (vfloat)(1.0f));
     }
 #else
-    const float inverse_h2 = 1.0f / (bandwidth * bandwidth);
-    vfloat mean[3] = {own[0], own[1], own[2]};
-#if STAGE
+    Mean mean = {1.0f, 0.0f, 0.0f, 0.0f};
+    // The first iteration goes with taking the samples: around the pixel's own colour.
+    MeanShiftSums sums = {0.0f, 0.0f, 0.0f, 0.0f};
     for (int k = 0; k < p.num_views; ++k) {
-      sample_or_far(band, p, views, strip.ref, k, u, v, h, colour, &count);
-      for (int c = 0; c < 3; ++c) staged[SLICE(3 * k + c)] = colour[c];
-    }
-#else
-    for (int k = 0; k < p.num_views; ++k)
-      sample_or_far(band, p, views, strip.ref, k, u, v, h, colour, &count);
+      const Sample x = take_sample(band, p, k, shift[k], u, v, own, inverse_h, &count);
+#if STAGE
+      stage(staged, k, x);
 #endif
+      add_sample(&sums, x, max(1.0f - x.length2, (vfloat)(0.0f)));
+    }
     for (int iteration = 0; iteration < ITERATIONS; ++iteration) {
-      // Two sets of sums: one would leave the units waiting for the addition before.
-      MeanShiftSums even = {0.0f, 0.0f, 0.0f, 0.0f}, odd = {0.0f, 0.0f, 0.0f, 0.0f};
-      int k = 0;
-#if STAGE
-      for (; k + 1 < p.num_views; k += 2) {
-        add_sample(&even, staged[SLICE(3 * k)], staged[SLICE(3 * k + 1)], staged[SLICE(3 * k + 2)],
-                   mean, inverse_h2);
-        add_sample(&odd, staged[SLICE(3 * k + 3)], staged[SLICE(3 * k + 4)],
-                   staged[SLICE(3 * k + 5)], mean, inverse_h2);
+      if (iteration > 0) {
+        // Two sets of sums: one would leave the units waiting for the addition before.
+        MeanShiftSums even = {0.0f, 0.0f, 0.0f, 0.0f}, odd = {0.0f, 0.0f, 0.0f, 0.0f};
+        int k = 0;
+        for (; k + 1 < p.num_views; k += 2) {
+          const Sample x = sample_again(staged, band, p, k, shift, u, v, own, inverse_h);
+          add_sample(&even, x, epanechnikov(x, mean));
+          const Sample y = sample_again(staged, band, p, k + 1, shift, u, v, own, inverse_h);
+          add_sample(&odd, y, epanechnikov(y, mean));
+        }
+        if (k < p.num_views) {
+          const Sample x = sample_again(staged, band, p, k, shift, u, v, own, inverse_h);
+          add_sample(&even, x, epanechnikov(x, mean));
+        }
+        sums.weights = even.weights + odd.weights;
+        sums.red = even.red + odd.red;
+        sums.green = even.green + odd.green;
+        sums.blue = even.blue + odd.blue;
       }
-      if (k < p.num_views)
-        add_sample(&even, staged[SLICE(3 * k)], staged[SLICE(3 * k + 1)], staged[SLICE(3 * k + 2)],
-                   mean, inverse_h2);
-#else
-      vfloat ignored = (vfloat)(0.0f);
-      for (; k < p.num_views; ++k) {
-        sample_or_far(band, p, views, strip.ref, k, u, v, h, colour, &ignored);
-        add_sample(&even, colour[0], colour[1], colour[2], mean, inverse_h2);
-      }
-#endif
-      const vfloat weights = even.weights + odd.weights;
-      const vfloat scale = 1.0f / max(weights, (vfloat)(1e-12f));
-      const vfloat sum[3] = {even.red + odd.red, even.green + odd.green, even.blue + odd.blue};
-      vfloat moved = (vfloat)(0.0f);
-      for (int c = 0; c < 3; ++c) {
-        // Where no sample is near, the mean stays.
-        const vfloat next = VSELECT(mean[c], sum[c] * scale, weights > 0.0f);
-        moved += (next - mean[c]) * (next - mean[c]);
-        mean[c] = next;
-      }
-      if (!VANY(moved > MOVE_BOUND * MOVE_BOUND * bandwidth * bandwidth)) break;
+      if (move(&mean, sums) <= MOVE_BOUND * MOVE_BOUND) break;
     }
-    for (int k = 0; k < p.num_views; ++k) {
-#if STAGE
-      density += epanechnikov(staged[SLICE(3 * k)], staged[SLICE(3 * k + 1)],
-                              staged[SLICE(3 * k + 2)], mean, inverse_h2);
-#else
-      vfloat ignored = (vfloat)(0.0f);
-      sample_or_far(band, p, views, strip.ref, k, u, v, h, colour, &ignored);
-      density += epanechnikov(colour[0], colour[1], colour[2], mean, inverse_h2);
-#endif
-    }
+    for (int k = 0; k < p.num_views; ++k)
+      density += epanechnikov(
+          sample_again(staged, band, p, k, shift, u, v, own, inverse_h), mean);
 #endif
     vfloat score = density / max(count, (vfloat)(floor_views));
     score = VSELECT((vfloat)(-1.0f), score, count >= (float)min_views);

@@ -9,6 +9,9 @@
 __constant float GAUSSIAN[7] = {6.96193329e-05f, 1.03324251e-02f, 2.07532307e-01f,
                                 5.64131298e-01f, 2.07532307e-01f, 1.03324251e-02f, 6.96193329e-05f};
 
+// Vectors that hold the 2 LANES + 6 columns around a block of small pixels.
+#define BLOCKS ((3 * LANES + 5) / LANES)
+
 // Small pixel u: both sums, one pixel at a time.
 static inline float smooth_pixel(__global const float* const* rows, int u) {
   float total = 0.0f;
@@ -35,8 +38,8 @@ __kernel void downsample(__global const float* band, const BandParams p, const i
 #if LANES > 1
     if (u + LANES <= small_width) {
       // Columns first, as vectors; then every second value along the row.
-      float line[3 * LANES];
-      for (int j = 0; j < 3; ++j) {
+      float line[BLOCKS * LANES];
+      for (int j = 0; j < BLOCKS; ++j) {
         vfloat column = (vfloat)(0.0f);
         for (int y = 0; y < 7; ++y)
           column += GAUSSIAN[y] * VLOAD(rows[y] + 2 * u - 3 + j * LANES);

@@ -41,6 +41,16 @@ typedef struct HypothesisParams {
   int count;
 } HypothesisParams;
 
+/// Where another view sees a block of neighbouring pixels (u, v), (u + 1, v), … of the reference view
+/// under one hypothesis: from (u + whole_u + fraction_u, v + whole_v + fraction_v) on. Fractions are in
+/// [0, 1).
+typedef struct BlockShift {
+  int whole_u;
+  int whole_v;
+  float fraction_u;
+  float fraction_v;
+} BlockShift;
+
 #ifndef __OPENCL_C_VERSION__
 }  // namespace gigaray
 #endif

@@ -32,11 +32,10 @@ __kernel void mean_radiance(__global const float* band, const BandParams p, cons
     for (int k = 0; k < p.num_views; ++k) {
       float x, y, h_other;
       if (!locate(views, strip.ref, k, u, v, h, &x, &y, &h_other)) continue;
-      x = snapped(x);
-      y = snapped(y);
-      if (!(x >= 0.0f && x <= p.width - 1 && y >= 0.0f && y <= p.height - 1)) continue;
-      const int xi = (int)x, yi = (int)y;
-      const float fx = x - xi, fy = y - yi;
+      float fx, fy;
+      const int xi = split_snapped(x, &fx), yi = split_snapped(y, &fy);
+      if (xi < 0 || xi + (fx > 0.0f) > p.width - 1 || yi < 0 || yi + (fy > 0.0f) > p.height - 1)
+        continue;
       __global const float* upper = band_row(band, p, k, yi) + xi;
       __global const float* lower = fy > 0.0f ? band_row(band, p, k, yi + 1) + xi : upper;
       float colour[3], d2 = 0.0f;

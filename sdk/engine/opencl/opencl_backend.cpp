@@ -22,6 +22,8 @@ using opencl::WorkSize;
 
 static_assert(StripMap<float>::kPad == GIGARAY_PAD);
 
+constexpr int kStagedVectors = 4;  ///< Local memory of density_score per view, see there.
+
 /// A kernel that works on blocks of `lanes` pixels in groups of `group` work-items.
 struct LaneKernel {
   Kernel kernel;
@@ -99,6 +101,7 @@ class OpenClBackend : public Backend {
     band_.stride = StripMap<float>::pitch_for(shape.width);
     const std::vector<float> views = sampler_.view_table(shape.level);
     views_buffer_ = Buffer(device_, std::span<const float>(views));
+    shifts_ref_ = -1;
   }
 
   void load_band(RowRange rows, const void* encoded, BandEncoding encoding) override {
@@ -145,11 +148,11 @@ class OpenClBackend : public Backend {
     winner_reads(raw_scores_, rows);
     const float all = float(band_.num_views);
     const int min_views = std::max(1, int(std::ceil(score.min_views * all)));
-    kernel.kernel.set_args(band_memory_.buffer, band_, strip(ref, rows), views_buffer_, hypotheses_,
-                           upload(1, rows, todo), upload(2, rows, bounds), score.bandwidth,
-                           score.gradient_bandwidth, score.gradient_share, min_views,
-                           score.floor_views * all, scores,
-                           kernel.vectors(kernel.staged ? 3 * band_.num_views : 1));
+    kernel.kernel.set_args(band_memory_.buffer, band_, strip(ref, rows), block_shifts(ref),
+                           hypotheses_, upload(1, rows, todo), upload(2, rows, bounds),
+                           score.bandwidth, score.gradient_bandwidth, score.gradient_share,
+                           min_views, score.floor_views * all, scores,
+                           kernel.vectors(kernel.staged ? kStagedVectors * band_.num_views : 1));
     kernel.run(band_.width, rows.size());
     device_.finish();  // so that the stage's seconds are its own
   }
@@ -304,6 +307,19 @@ class OpenClBackend : public Backend {
            define("CUBIC", score.cubic);
   }
 
+  /// Shifts from `ref` to all views under all hypotheses.
+  Buffer& block_shifts(int ref) {
+    Buffer& shifts = shifts_.at_least(
+        device_, std::size_t(hypotheses_.count) * band_.num_views * sizeof(BlockShift));
+    if (shifts_ref_ != ref)
+      plain_kernel("density_score", "block_shifts",
+                   " " + opencl::defines(tuning_of("density_score")) + score_defines())
+          .set_args(views_buffer_, ref, band_.num_views, hypotheses_, shifts)
+          .run(WorkSize(band_.num_views, hypotheses_.count), WorkSize(1, 1));
+    shifts_ref_ = ref;
+    return shifts;
+  }
+
   /// Device copy of some rows of a map. slot: maps of one call need different ones.
   template <class T>
   Buffer& upload(int slot, RowRange rows, const StripMap<T>& map) {
@@ -355,7 +371,7 @@ class OpenClBackend : public Backend {
       for (const auto& [name, value] : own->second) tuning[name] = value;
     if (tuning.contains("STAGE")) {
       // Only the kernel with mean-shift has samples to stage, and only where local memory holds them.
-      const std::size_t bytes = std::size_t(3) * sampler_.num_views * tuning.at("LANES") *
+      const std::size_t bytes = std::size_t(kStagedVectors) * sampler_.num_views * tuning.at("LANES") *
                                 tuning.at("GROUP") * sizeof(float);
       if (setup_.options.score.gradient || bytes > device_.info().local_memory) tuning["STAGE"] = 0;
     }
@@ -370,12 +386,13 @@ class OpenClBackend : public Backend {
   HypothesisParams hypotheses_{};
   BandParams band_{};
   int active_count_ = 0;
+  int shifts_ref_ = -1;  ///< The view that shifts_ is for.
   RowRange score_rows_;
   RowRange raw_rows_;                ///< of raw_scores_
   Scratch* winner_scores_ = nullptr;  ///< the scores of score_rows_
 
   Buffer table_buffer_, active_buffer_, views_buffer_;
-  Scratch encoded_, band_memory_, raw_scores_, supported_scores_, maps_[6];
+  Scratch shifts_, encoded_, band_memory_, raw_scores_, supported_scores_, maps_[6];
   std::map<std::string, Kernel> plain_kernels_;
   std::map<std::string, LaneKernel> lane_kernels_;
 };

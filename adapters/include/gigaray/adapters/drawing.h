@@ -48,7 +48,8 @@ struct ScoreMark {
 };
 
 /// The score curve over the tested range, its mean as a dashed line, and marks, the first of them
-/// emphasised. scores: two or more, equally spaced over `range`; negative or NaN: not tested, a gap.
+/// emphasised. scores: two or more, equally spaced over `range`; negative or NaN: not tested, a
+/// gap.
 Image<std::uint16_t> draw_scores(std::span<const float> scores, DisparityRange range, double mean,
                                  std::span<const ScoreMark> marks);
 
