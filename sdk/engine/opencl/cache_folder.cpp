@@ -12,6 +12,7 @@
 #include <string>
 
 #include "gigaray/device.h"
+#include "opencl/pocl_cache.h"
 
 namespace gigaray::opencl {
 namespace fs = std::filesystem;
@@ -97,7 +98,10 @@ void give_pocl_a_cache() {
     if (!environment("POCL_CACHE_DIR").empty()) return true;
     const auto folder = cache_folder();
     if (folder && is_writable(*folder / kPoclFolder)) {
-      setenv("POCL_CACHE_DIR", (*folder / kPoclFolder).c_str(), 1);
+      static const fs::path pocl = *folder / kPoclFolder;
+      remove_damaged_pocl_programs(pocl);
+      std::atexit([] { record_pocl_programs(pocl); });
+      setenv("POCL_CACHE_DIR", pocl.c_str(), 1);
     } else {
       static const TemporaryFolder temporary;
       if (!temporary.path().empty()) setenv("POCL_CACHE_DIR", temporary.path().c_str(), 1);

@@ -18,7 +18,7 @@ namespace {
 
 constexpr double kMiB = 1 << 20;
 /// The program itself, OpenCL and its compiler, decoding buffers of small pictures.
-constexpr double kProcessBytes = 260 * kMiB;
+constexpr double kProcessBytes = 220 * kMiB;
 /// Most bytes of one device buffer that every OpenCL driver we know grants.
 constexpr double kLargestBuffer = 1800 * kMiB;
 constexpr int kSmallestLevel = 10;  // px
@@ -82,7 +82,9 @@ MemoryPlan plan_memory(const LightField& light_field, const DepthOptions& option
   const double support_rows = options.support.radius > 0 ? 2 * options.support.radius + 1 : 1;
   const double copies = options.support.radius > 0 ? 2 : 1;
   const double volume =
-      std::clamp(limit / 12, volume_row * support_rows, std::max(192 * kMiB, volume_row * support_rows));
+      std::min(std::clamp(limit / 12, volume_row * support_rows,
+                          std::max(192 * kMiB, volume_row * support_rows)),
+               volume_row * (light_field.height + support_rows));
   // Maps of one view: todo, bounds (twice with support), disparity, confidence, median, radiance, slopes.
   const double view_maps = pitch * light_field.height * (options.support.slanted ? 52 : 40);
   const double decoding = std::min(4u, std::max(1u, std::thread::hardware_concurrency())) * 12.0 *
