@@ -74,11 +74,26 @@ TEST(DepthOptions, AValueOutOfRangeIsNamedWithItsField) {
       {"propagation.tolerance", "0", [](auto& o) { o.propagation.tolerance = 0; }},
       {"propagation.final_median_radius", "-1",
        [](auto& o) { o.propagation.final_median_radius = -1; }},
-      {"disparity", "1 1", [](auto& o) { o.disparity = DisparityRange{1, 1}; }},
-      {"disparity", "2 -1", [](auto& o) { o.disparity = DisparityRange{2, -1}; }},
-      {"disparity", "0 0.0001", [](auto& o) { o.disparity = DisparityRange{0, 1e-4}; }},
-      {"disparity", "inf", [](auto& o) { o.disparity = DisparityRange{0, INFINITY}; }},
-      {"disparity", "nan", [](auto& o) { o.disparity = DisparityRange{std::nan(""), 1}; }},
+      {"disparity", "1 1",
+       [](auto& o) {
+         o.disparity = DisparityRange{1, 1};
+       }},
+      {"disparity", "2 -1",
+       [](auto& o) {
+         o.disparity = DisparityRange{2, -1};
+       }},
+      {"disparity", "0 0.0001",
+       [](auto& o) {
+         o.disparity = DisparityRange{0, 1e-4};
+       }},
+      {"disparity", "inf",
+       [](auto& o) {
+         o.disparity = DisparityRange{0, INFINITY};
+       }},
+      {"disparity", "nan",
+       [](auto& o) {
+         o.disparity = DisparityRange{std::nan(""), 1};
+       }},
       {"memory", "negative", [](auto& o) { o.memory_bytes = -1; }},
       {"support.radius", "min_views", [](auto& o) { o.score.min_views = 0.2f; }},
   };

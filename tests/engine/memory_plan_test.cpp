@@ -47,10 +47,9 @@ TEST(LevelShapes, HalveAndRoundUpUntilTenPixels) {
 }
 
 TEST(MemoryPlan, ForecastObeysTheLimit) {
-  const LightField fields[] = {described(row_of_views(100), 1920, 1080),
-                               described(row_of_views(50), 352, 240),
-                               described(row_of_views(100), 5616, 3744),
-                               described(grid_of_views(9, 9), 512, 512, 16)};
+  const LightField fields[] = {
+      described(row_of_views(100), 1920, 1080), described(row_of_views(50), 352, 240),
+      described(row_of_views(100), 5616, 3744), described(grid_of_views(9, 9), 512, 512, 16)};
   for (const LightField& light_field : fields)
     for (const char* preset : {"paper", "auto"})
       for (const double mib : {600.0, 1024.0, 2048.0, 8192.0, 32768.0}) {
@@ -110,7 +109,8 @@ TEST(MemoryPlan, TheHaloHoldsEveryWindow) {
     const LightField light_field = described(row_of_views(9), 200, 200);
     for (const LevelPlan& level : plan_memory(light_field, options, kHypotheses).levels) {
       EXPECT_GE(level.halo, options.winner.median_radius);
-      EXPECT_GE(level.halo, options.edge.radius + 2) << "edges of the rows that the opening looks at";
+      EXPECT_GE(level.halo, options.edge.radius + 2)
+          << "edges of the rows that the opening looks at";
       EXPECT_GE(level.halo, options.support.radius + 3) << "with gradients and interpolation taps";
       EXPECT_GE(level.halo, options.support.slanted ? kSlopeReach : 0);
       EXPECT_GE(level.halo, 3 + 1) << "downsampling";

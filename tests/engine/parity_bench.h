@@ -176,9 +176,10 @@ class ParityBench {
     StripMap<float> map(width(), rows);
     for (int v = rows.begin; v < rows.end; ++v)
       for (int u = 0; u < width(); ++u)
-        map.row(v)[u] = uniform() < share ? float(hypotheses_.min + uniform() * (hypotheses_.max -
-                                                                                  hypotheses_.min))
-                                          : kNoEstimate;
+        map.row(v)[u] =
+            uniform() < share
+                ? float(hypotheses_.min + uniform() * (hypotheses_.max - hypotheses_.min))
+                : kNoEstimate;
     return map;
   }
   /// Estimates of a slanted surface with noise, outliers and holes.
@@ -223,11 +224,13 @@ class ParityBench {
         for (int u = 0; u < width(); ++u)
           for (int c = 0; c < 3; ++c) {
             // A plane at disparity 0.6 with noise; stripes of it are random or flat.
-            double value = pattern(u * scale + views[view].s * 0.6, v * scale + views[view].t * 0.6, c) +
-                           0.01 * (uniform() - 0.5);
+            double value =
+                pattern(u * scale + views[view].s * 0.6, v * scale + views[view].t * 0.6, c) +
+                0.01 * (uniform() - 0.5);
             if (3 * u >= width() && 2 * u < width()) value = uniform();
             if (3 * u >= 2 * width() && 6 * u < 5 * width()) value = 0.25 * (c + 1);
-            const std::size_t line = (std::size_t(v - loaded.begin) * views.size() + view) * 3 * width();
+            const std::size_t line =
+                (std::size_t(v - loaded.begin) * views.size() + view) * 3 * width();
             const std::size_t interleaved = line + 3 * u + c;
             if (value_bytes == 1)
               encoded_[interleaved] = std::uint8_t(std::lround(value * most));
@@ -277,13 +280,12 @@ inline Difference compare(const StripMap<Slope>& a, const StripMap<Slope>& b, Ro
 }
 /// Scores of all pixels to do, within their bounds. `unstable`: larger differences are counted.
 template <RaySampler S>
-Difference compare_scores(ParityBench<S>& bench, RowRange rows,
-                                 const StripMap<std::uint8_t>& todo,
-                                 const StripMap<HypothesisBounds>& bounds, double unstable) {
+Difference compare_scores(ParityBench<S>& bench, RowRange rows, const StripMap<std::uint8_t>& todo,
+                          const StripMap<HypothesisBounds>& bounds, double unstable) {
   Difference difference;
   for (int v = rows.begin; v < rows.end; ++v)
     // Scores are fetched one by one: of wide pictures every third pixel, which meets every lane.
-    for (int u = 0; u < bench.width(); u += bench.width() > 64 ? 3 : 1) {
+    for (int u = 0; u<bench.width(); u += bench.width()> 64 ? 3 : 1) {
       if (!todo.row(v)[u]) continue;
       const auto expected = bench.reference->scores_at(u, v);
       const auto actual = bench.opencl->scores_at(u, v);

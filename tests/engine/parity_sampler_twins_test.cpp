@@ -19,7 +19,8 @@ __kernel void locate_rays(__global const float* views, __global const int2* pair
                           __global const float4* rays, __global float4* there) {
   const int i = get_global_id(0);
   float u = 0, v = 0, h = 0;
-  const int seen = locate(views, pairs[i].x, pairs[i].y, rays[i].x, rays[i].y, rays[i].z, &u, &v, &h);
+  const float4 ray = rays[i];
+  const int seen = locate(views, pairs[i].x, pairs[i].y, ray.x, ray.y, ray.z, &u, &v, &h);
   there[i] = (float4)(u, v, h, seen);
 })";
 
@@ -33,11 +34,10 @@ struct Pair {
 template <RaySampler S>
 void expect_same_rays(const S& level0) {
   auto device = opencl::Device::open();
-  const opencl::SourcePart parts[] = {
-      {"kernel_params.h", opencl::kernel_source("kernel_params.h")},
-      {"common.cl", opencl::kernel_source("common.cl")},
-      {"sampler", opencl::kernel_source(S::kKernelFile)},
-      {"locate_rays.cl", kLocateRays}};
+  const opencl::SourcePart parts[] = {{"kernel_params.h", opencl::kernel_source("kernel_params.h")},
+                                      {"common.cl", opencl::kernel_source("common.cl")},
+                                      {"sampler", opencl::kernel_source(S::kKernelFile)},
+                                      {"locate_rays.cl", kLocateRays}};
   opencl::Kernel kernel(device, opencl::build_program(device, parts), "locate_rays");
   std::mt19937 random(3);
   const auto uniform = [&](float low, float high) {
@@ -63,8 +63,8 @@ void expect_same_rays(const S& level0) {
     out.read(std::span(there));
     Difference position, hypothesis;
     for (std::size_t i = 0; i < rays.size(); ++i) {
-      const auto expected = sampler.locate(pairs[i].from, pairs[i].to,
-                                           {rays[i].u, rays[i].v, rays[i].hypothesis});
+      const auto expected =
+          sampler.locate(pairs[i].from, pairs[i].to, {rays[i].u, rays[i].v, rays[i].hypothesis});
       ASSERT_EQ(expected.has_value(), there[i].seen != 0);
       if (!expected) continue;
       position.add(expected->u, there[i].u);

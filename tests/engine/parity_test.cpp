@@ -14,13 +14,13 @@ namespace {
 
 // Rounding: values up to about 10 in single precision, sums of some dozen of them in another order.
 constexpr double kRounding = 4e-6;
-// A colour is off by some 1e-7; the kernel's slope is up to 2 / h with h = 0.02, so a score is off by
-// 1e-5, and mean-shift steps pass it on.
+// A colour is off by some 1e-7; the kernel's slope is up to 2 / h with h = 0.02, so a score is off
+// by 1e-5, and mean-shift steps pass it on.
 constexpr double kScore = 1e-4;
 // density_score.cl: stopping early changes a score by less than 2 * MOVE_BOUND * ITERATIONS.
 constexpr double kEarlyStop = 2 * 1e-4 * 10;
-// Mean-shift amplifies rounding without bound where the samples pull both ways with equal force; that
-// happens for few rays, and only in random content.
+// Mean-shift amplifies rounding without bound where the samples pull both ways with equal force;
+// that happens for few rays, and only in random content.
 constexpr double kUnstableShare = 2e-3;
 
 template <class S>
@@ -119,15 +119,16 @@ TYPED_TEST(Parity, AutoScores) {
       const auto bounds = bench.random_bounds(bench.rows());
       bench.reference->density_score(3, bench.rows(), todo, bounds);
       bench.opencl->density_score(3, bench.rows(), todo, bounds);
-      this->expect_within(variant.stage,
-                          compare_scores(bench, bench.rows(), todo, bounds, 1), kScore);
+      this->expect_within(variant.stage, compare_scores(bench, bench.rows(), todo, bounds, 1),
+                          kScore);
     }
 }
 
 TYPED_TEST(Parity, RegularRigs) {
   // Shifts of whole and half pixels, exact or off by rounding, up to the edges of the picture.
   for (const ParityCase& size : parity_cases())
-    for (const HypothesisRange& hypotheses : {HypothesisRange{-1, 1, 17}, HypothesisRange{-1, 1, 21}})
+    for (const HypothesisRange& hypotheses :
+         {HypothesisRange{-1, 1, 17}, HypothesisRange{-1, 1, 21}})
       for (const DepthOptions& preset : {paper_options(), auto_options()}) {
         DepthOptions options = preset;
         options.score.stop_early = false;
@@ -157,12 +158,12 @@ TYPED_TEST(Parity, SupportedScores) {
       backend->density_score(0, around, all, full);
       backend->score_support(0, bench.rows(), todo, bounds);
     }
-    this->expect_within("score support",
-                        compare_scores(bench, bench.rows(), todo, bounds, 1), kScore);
+    this->expect_within("score support", compare_scores(bench, bench.rows(), todo, bounds, 1),
+                        kScore);
     for (Backend* backend : {bench.reference.get(), bench.opencl.get()})
       backend->slanted_support(0, bench.rows(), todo, bounds, slopes);
-    this->expect_within("slanted support",
-                        compare_scores(bench, bench.rows(), todo, bounds, 1), kScore);
+    this->expect_within("slanted support", compare_scores(bench, bench.rows(), todo, bounds, 1),
+                        kScore);
   }
 }
 
@@ -262,8 +263,9 @@ TYPED_TEST(Parity, MeanRadiance) {
 TYPED_TEST(Parity, Propagation) {
   for (const ParityCase& size : parity_cases()) {
     ParityBench<TypeParam> bench(size, paper_options());
-    const RowRange reached = bench.sampler().at_level(size.level).rows_needed(
-        bench.rows(), bench.hypotheses(), bench.height());
+    const RowRange reached = bench.sampler()
+                                 .at_level(size.level)
+                                 .rows_needed(bench.rows(), bench.hypotheses(), bench.height());
     std::vector<PackedEstimate> expected(std::size_t(reached.size()) * bench.active_count *
                                          bench.width());
     // Some estimates are there already.

@@ -47,8 +47,8 @@ struct Job {
 class PipelineBands : public testing::TestWithParam<Job> {};
 
 TEST_P(PipelineBands, MemoryAndFilesDontChangeTheResult) {
-  const AnalyticField field = GetParam().is_4d ? scene(grid_of_views(3, 3), 61, 67)
-                                               : scene(irregular_row(), 93, 131);
+  const AnalyticField field =
+      GetParam().is_4d ? scene(grid_of_views(3, 3), 61, 67) : scene(irregular_row(), 93, 131);
   DepthOptions options = small_job(GetParam().preset);
   const ScopedFolder work;
   options.work_folder = work.path;
@@ -67,8 +67,9 @@ TEST_P(PipelineBands, MemoryAndFilesDontChangeTheResult) {
     EXPECT_LE(plan.memory_bytes, options.memory_bytes);
     if (!plans.insert({plan.bands, plan.disk_bytes > 0}).second) continue;
     on_disk = on_disk || plan.disk_bytes > 0;
-    expect_identical(expected, run(field.light_field, options),
-                     std::to_string(plan.bands) + " bands, disk " + std::to_string(plan.disk_bytes));
+    expect_identical(
+        expected, run(field.light_field, options),
+        std::to_string(plan.bands) + " bands, disk " + std::to_string(plan.disk_bytes));
     EXPECT_TRUE(std::filesystem::is_empty(work.path));
   }
   EXPECT_GE(plans.size(), 3u);
@@ -76,15 +77,17 @@ TEST_P(PipelineBands, MemoryAndFilesDontChangeTheResult) {
 }
 
 TEST_P(PipelineBands, TwiceTheSameInputGivesTheSameBits) {
-  const AnalyticField field = GetParam().is_4d ? scene(irregular_grid(), 47, 39)
-                                               : scene(row_of_views(5), 77, 41, 16);
+  const AnalyticField field =
+      GetParam().is_4d ? scene(irregular_grid(), 47, 39) : scene(row_of_views(5), 77, 41, 16);
   const DepthOptions options = small_job(GetParam().preset);
   expect_identical(run(field.light_field, options), run(field.light_field, options), "second run");
 }
 
 INSTANTIATE_TEST_SUITE_P(Jobs, PipelineBands,
-                         testing::Values(Job{"Paper3D", "paper", false}, Job{"Auto3D", "auto", false},
-                                         Job{"Paper4D", "paper", true}, Job{"Auto4D", "auto", true}),
+                         testing::Values(Job{"Paper3D", "paper", false},
+                                         Job{"Auto3D", "auto", false},
+                                         Job{"Paper4D", "paper", true},
+                                         Job{"Auto4D", "auto", true}),
                          [](const auto& info) { return info.param.name; });
 
 /// A run with bands and strips of a given height, where memory would not ask for them.
@@ -101,7 +104,8 @@ struct PlannedRun {
     for (LevelPlan& level : plan.levels) level.band_rows = std::min(band_rows, level.shape.height);
     if (one_row_strips) plan.volume_bytes = 1;
     plan.work_folder = work_folder;
-    const BackendSetup setup{options, hypotheses, light_field.kind, light_field.pixels->bit_depth()};
+    const BackendSetup setup{options, hypotheses, light_field.kind,
+                             light_field.pixels->bit_depth()};
     const RunControl control;
     std::visit(
         [&](const auto& sampler) {

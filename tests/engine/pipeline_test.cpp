@@ -55,8 +55,9 @@ TEST(Pipeline, PositiveDisparityIsNearerAndNegativeIsFarther) {
   for (const double truth : {-0.8, 0.8})
     for (const char* preset : kPresets) {
       const AnalyticField field = analytic_field(61, 45, row_of_views(7), {{truth}});
-      EXPECT_GT(share_within(run(field.light_field, job(preset, {-1.5, 1.5}, 61)), field.disparity, 0.1),
-                0.95)
+      EXPECT_GT(
+          share_within(run(field.light_field, job(preset, {-1.5, 1.5}, 61)), field.disparity, 0.1),
+          0.95)
           << preset << " " << truth;
     }
 }
@@ -110,20 +111,20 @@ TEST(Pipeline, EveryPixelOfEveryViewGetsAnEstimate) {
     int width, height, bit_depth;
     std::vector<View> views;
   };
-  const Size sizes[] = {{21, 11, 8, row_of_views(2)},   {93, 31, 16, row_of_views(3)},
-                        {33, 7, 8, row_of_views(5)},    {16, 16, 16, grid_of_views(2, 2)},
+  const Size sizes[] = {{21, 11, 8, row_of_views(2)},
+                        {93, 31, 16, row_of_views(3)},
+                        {33, 7, 8, row_of_views(5)},
+                        {16, 16, 16, grid_of_views(2, 2)},
                         {45, 57, 8, irregular_grid()}};
   for (const Size& size : sizes)
     for (const char* preset : kPresets) {
       Layer patch{1, 3};
       patch.left = patch.top = 4;
       patch.right = patch.bottom = 9;
-      const AnalyticField field =
-          analytic_field(size.width, size.height, size.views, {{-0.4, 1, 0.02}, patch},
-                         size.bit_depth, 0.01);
+      const AnalyticField field = analytic_field(size.width, size.height, size.views,
+                                                 {{-0.4, 1, 0.02}, patch}, size.bit_depth, 0.01);
       const RunControl control;
-      Reconstruction result =
-          reconstruct(field.light_field, job(preset, {-1, 2}, 31), {}, control);
+      Reconstruction result = reconstruct(field.light_field, job(preset, {-1, 2}, 31), {}, control);
       EXPECT_EQ(result.views().size(), size.views.size());
       EXPECT_EQ(pixels_without_estimate(all_of(result)), 0)
           << preset << " " << size.width << "x" << size.height;
@@ -138,10 +139,12 @@ TEST(Pipeline, EveryPixelOfEveryViewGetsAnEstimate) {
 TEST(Pipeline, AFlatPictureGetsDepthToo) {
   const AnalyticField field = analytic_field(33, 31, row_of_views(3), {{0, 1, 0}});
   for (const char* preset : kPresets)
-    EXPECT_EQ(pixels_without_estimate(run(field.light_field, job(preset, {-1, 1}, 21))), 0) << preset;
+    EXPECT_EQ(pixels_without_estimate(run(field.light_field, job(preset, {-1, 1}, 21))), 0)
+        << preset;
   // All hypotheses score 1 then, and of equal scores the smallest hypothesis wins.
   for (const char* backend : {"opencl", "reference"})
-    for (const auto& [view, depth] : run(field.light_field, job("paper", {-1, 1}, 21), backend).views)
+    for (const auto& [view, depth] :
+         run(field.light_field, job("paper", {-1, 1}, 21), backend).views)
       for (const float d : depth.disparity) EXPECT_EQ(d, -1) << backend;
 }
 
@@ -175,7 +178,8 @@ TEST(Pipeline, OnlyViewsAskedForHaveDepth) {
   EXPECT_EQ(some.views(), (std::vector<int>{1, 4}));
   EXPECT_EQ(pixels_without_estimate(all_of(some)), 0);
   expect_error(ErrorCode::kInvalidArgument, {"view 2"}, [&] { some.view(2); });
-  some.for_each_tuple([](const RayTuple& tuple) { EXPECT_TRUE(tuple.view == 1 || tuple.view == 4); });
+  some.for_each_tuple(
+      [](const RayTuple& tuple) { EXPECT_TRUE(tuple.view == 1 || tuple.view == 4); });
 
   options.views = {centre_view(field.light_field)};
   const DepthResult centre = run(field.light_field, options);
@@ -186,8 +190,7 @@ TEST(Pipeline, OnlyViewsAskedForHaveDepth) {
 TEST(Pipeline, TuplesAreTheAcceptedEstimatesInAFixedOrder) {
   const AnalyticField field = analytic_field(45, 33, row_of_views(5), {{0.5}});
   const RunControl control;
-  Reconstruction result =
-      reconstruct(field.light_field, job("paper", {-1, 2}, 61), {}, control);
+  Reconstruction result = reconstruct(field.light_field, job("paper", {-1, 2}, 61), {}, control);
   const auto order = views_from_centre(field.light_field);
   const auto place = [&](int view) {
     return std::find(order.begin(), order.end(), view) - order.begin();
@@ -296,8 +299,9 @@ TEST(Pipeline, TooLittleMemorySaysHowMuchItTakes) {
   options.memory_bytes = 32 << 20;
   const RunControl control;
   for (const char* backend : {"opencl", "reference"})
-    expect_error(ErrorCode::kOutOfMemory, {"32 MiB", "5 views", "at least"},
-                 [&] { reconstruct(field.light_field, options, {backend, ""}, control); });
+    expect_error(ErrorCode::kOutOfMemory, {"32 MiB", "5 views", "at least"}, [&] {
+      reconstruct(field.light_field, options, {backend, ""}, control);
+    });
   // What the message advises must do.
   std::string message;
   try {
@@ -329,10 +333,12 @@ TEST(Pipeline, WrongArgumentsAreNamed) {
   options.hypotheses = 0;
   options.hypothesis_step = 1e-4;
   expect_refused(options, {"hypotheses", "4096"});
-  expect_error(ErrorCode::kInvalidArgument, {"cuda", "opencl", "reference"},
-               [&] { reconstruct(field.light_field, good, {"cuda", ""}, control); });
-  expect_error(ErrorCode::kDevice, {"no such device"},
-               [&] { reconstruct(field.light_field, good, {"opencl", "no such device"}, control); });
+  expect_error(ErrorCode::kInvalidArgument, {"cuda", "opencl", "reference"}, [&] {
+    reconstruct(field.light_field, good, {"cuda", ""}, control);
+  });
+  expect_error(ErrorCode::kDevice, {"no such device"}, [&] {
+    reconstruct(field.light_field, good, {"opencl", "no such device"}, control);
+  });
 }
 
 /// Pictures that fail in one view.
@@ -387,8 +393,7 @@ TEST(Pipeline, PropagationGivesAHiddenViewTheDepthOfTheCentre) {
   // Only the centre view sees enough: the outer views have nothing to search, all come from rays.
   const AnalyticField field = analytic_field(61, 45, row_of_views(5), {{0.5}});
   const RunControl control;
-  Reconstruction result =
-      reconstruct(field.light_field, job("auto", {-1, 2}, 61), {}, control);
+  Reconstruction result = reconstruct(field.light_field, job("auto", {-1, 2}, 61), {}, control);
   std::map<int, int> found_in;
   result.for_each_tuple([&](const RayTuple& tuple) {
     if (tuple.level == 0) ++found_in[tuple.view];

@@ -74,7 +74,8 @@ TEST(ReferenceScore, IsOneWhereAllViewsSeeTheSame) {
   const Band flat = band_of(31, 3, 5, 5, [](int, int, int, int c) { return c < 3 ? 0.4 : 0.0; });
   const EpiSampler sampler(views);
   for (const double h : {-1.0, 0.0, 0.77}) {
-    EXPECT_NEAR(reference::density_score(flat, sampler, 2, {15, 1, h}, paper_score()), 1, kRounding);
+    EXPECT_NEAR(reference::density_score(flat, sampler, 2, {15, 1, h}, paper_score()), 1,
+                kRounding);
     EXPECT_NEAR(reference::density_score(flat, sampler, 2, {15, 1, h}, auto_options().score), 1,
                 kRounding);
   }
@@ -146,7 +147,8 @@ TEST(ReferenceUnpack, GradientsOfARampAreItsSlope) {
   reference::unpack_channels(encoded.data(), BandEncoding::kFloat, {}, band);
   EXPECT_NEAR(band.pixel(0, 8, 4)[3], 0.01, kRounding);
   EXPECT_NEAR(band.pixel(0, 8, 4)[4], -0.02, kRounding);
-  EXPECT_NEAR(band.pixel(0, 0, 4)[3], 0.005, kRounding) << "the edge pixel stands in for its neighbour";
+  EXPECT_NEAR(band.pixel(0, 0, 4)[3], 0.005, kRounding)
+      << "the edge pixel stands in for its neighbour";
   EXPECT_NEAR(band.pixel(0, 8, height - 1)[4], -0.01, kRounding);
 }
 
@@ -260,9 +262,11 @@ TEST(ReferenceSupport, NeighboursOfTheSameColourDecide) {
   StripMap<std::uint8_t> todo(5, {0, 3});
   StripMap<HypothesisBounds> bounds(5, {0, 3});
   for (int u = 0; u < 5; ++u) todo.row(1)[u] = 1;
-  const Scores supported = reference::score_support(band, 0, {1, 2}, {1, 0.03f, 1e6f}, todo, bounds, scores);
+  const Scores supported =
+      reference::score_support(band, 0, {1, 2}, {1, 0.03f, 1e6f}, todo, bounds, scores);
   EXPECT_NEAR(supported.at(2, 1, 0), (8 * 0.2 + 1) / 9, 1e-5);
-  EXPECT_NEAR(supported.at(3, 1, 0), (5 * 0.2 + 1) / 6, 1e-5) << "its neighbours at the right don't count";
+  EXPECT_NEAR(supported.at(3, 1, 0), (5 * 0.2 + 1) / 6, 1e-5)
+      << "its neighbours at the right don't count";
   EXPECT_NEAR(supported.at(4, 1, 0), 0.9, 1e-5);
 }
 
@@ -281,8 +285,8 @@ TEST(ReferenceSupport, AlongTheSlopeASlantedSurfaceKeepsItsPeak) {
   slopes.row(0)[7] = {0.5f, 0};
   const SupportOptions support{3, 0.03f, 1e6f};
   const Scores plain = reference::score_support(flat, 0, {0, 1}, support, todo, bounds, scores);
-  const Scores slanted = reference::slanted_support(flat, 0, {0, 1}, support, hypotheses, todo, bounds,
-                                                    slopes, scores);
+  const Scores slanted = reference::slanted_support(flat, 0, {0, 1}, support, hypotheses, todo,
+                                                    bounds, slopes, scores);
   EXPECT_NEAR(slanted.at(7, 0, 7), 1, 1e-5);
   EXPECT_NEAR(plain.at(7, 0, 7), 1 - 12.0 / 7 / 8, 1e-5);
 }
@@ -321,7 +325,8 @@ TEST(ReferenceDownsample, KeepsConstantsAndPutsPixelIOnPixel2I) {
   reference::downsample(flat, {0, 5}, small.data());
   for (std::size_t i = 0; i < small.size(); ++i)
     EXPECT_NEAR(small[i], 0.2 + 0.1 * double(i / 7 % 3), kRounding);
-  const Band ramp = band_of(21, 15, 1, 3, [](int, int u, int v, int) { return 0.01 * u + 0.03 * v; });
+  const Band ramp =
+      band_of(21, 15, 1, 3, [](int, int u, int v, int) { return 0.01 * u + 0.03 * v; });
   small.resize(std::size_t(8) * 3 * 11);
   reference::downsample(ramp, {0, 8}, small.data());
   // Symmetric weights keep a ramp where the window is whole.
@@ -382,7 +387,8 @@ TEST(ReferencePropagation, TheNearerStaysThenTheMoreConfident) {
 
 TEST(ReferencePropagation, AnOccluderIsSkippedAndTheWalkGoesOn) {
   // View b sees something else there, view c behind it sees the point again.
-  const Band band = band_of(21, 1, 3, 3, [](int view, int, int, int) { return view == 1 ? 0.9 : 0.5; });
+  const Band band =
+      band_of(21, 1, 3, 3, [](int view, int, int, int) { return view == 1 ? 0.9 : 0.5; });
   Rays rays(21, {{"a", 0, 0}, {"b", 1, 0}, {"c", 2, 0}});
   rays.radiance.row(0)[10] = {0.5f, 0.5f, 0.5f};
   rays.disparity.row(0)[10] = 2;

@@ -45,7 +45,8 @@ TEST_P(RowStores, KeepWhatWasWritten) {
   std::vector<std::uint8_t> row(93);
   store.read(5, 0, 93, row.data());
   EXPECT_TRUE(std::equal(part.begin(), part.end(), row.begin() + 60));
-  EXPECT_EQ(std::accumulate(row.begin(), row.end(), 0), std::accumulate(part.begin(), part.end(), 0));
+  EXPECT_EQ(std::accumulate(row.begin(), row.end(), 0),
+            std::accumulate(part.begin(), part.end(), 0));
   store.read(4, 0, 93, row.data());
   EXPECT_EQ(std::accumulate(row.begin(), row.end(), 0), 0);
 }

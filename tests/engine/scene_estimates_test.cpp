@@ -128,8 +128,7 @@ TEST(CheckDirection, AMirroredGridIsFoundInAllFourOrders) {
 TEST(CheckDirection, DisparitiesOfBothSignsStayAsAssumedAndAreReported) {
   Layer front{1.2, 3};
   front.left = 60;
-  LightField light_field =
-      analytic_field(161, 95, row_of_views(7), {{-1.1, 3}, front}).light_field;
+  LightField light_field = analytic_field(161, 95, row_of_views(7), {{-1.1, 3}, front}).light_field;
   const std::vector<View> before = light_field.views;
   light_field.sign_is_assumed = true;
   Messages messages;

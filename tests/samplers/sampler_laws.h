@@ -100,7 +100,8 @@ TYPED_TEST_P(SamplerLaws, TheWayOverAThirdViewEndsAtTheSamePlace) {
 
 TYPED_TEST_P(SamplerLaws, Law4RowsNeededContainEveryRowReached) {
   const HypothesisRange range = TypeParam::hypotheses();
-  const RowRange bands[] = {{0, 1}, {0, this->kHeight}, {13, 20}, {this->kHeight - 1, this->kHeight}};
+  const RowRange bands[] = {
+      {0, 1}, {0, this->kHeight}, {13, 20}, {this->kHeight - 1, this->kHeight}};
   this->for_each_pair([&](const auto& sampler, int a, int b) {
     for (const RowRange& band : bands) {
       const RowRange needed = sampler.rows_needed(band, range, this->kHeight);
@@ -159,10 +160,8 @@ TYPED_TEST_P(SamplerLaws, ViewTableHasItsWidthForEveryView) {
 }
 
 REGISTER_TYPED_TEST_SUITE_P(SamplerLaws, Law1AViewSeesItsOwnRayAsItIs,
-                            Law2ThereAndBackIsTheIdentity,
-                            TheWayOverAThirdViewEndsAtTheSamePlace,
+                            Law2ThereAndBackIsTheIdentity, TheWayOverAThirdViewEndsAtTheSamePlace,
                             Law4RowsNeededContainEveryRowReached, MoreRowsNeedNoFewerRows,
-                            ALevelHalvesPixelsAndKeepsHypotheses,
-                            ViewTableHasItsWidthForEveryView);
+                            ALevelHalvesPixelsAndKeepsHypotheses, ViewTableHasItsWidthForEveryView);
 
 }  // namespace gigaray::testing_support

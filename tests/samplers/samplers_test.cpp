@@ -20,7 +20,8 @@ struct EpiRigs {
 struct GridRigs {
   using Sampler = GridSampler;
   static std::vector<Sampler> samplers() {
-    const std::vector<View> cross = {{"w", -1, 0}, {"m", 0, 0}, {"e", 1, 0}, {"n", 0, -1}, {"s", 0, 1}};
+    const std::vector<View> cross = {
+        {"w", -1, 0}, {"m", 0, 0}, {"e", 1, 0}, {"n", 0, -1}, {"s", 0, 1}};
     return {Sampler(grid_of_views(3, 4)), Sampler(cross), Sampler(irregular_grid()),
             Sampler(irregular_row())};
   }
@@ -59,7 +60,8 @@ TEST(Samplers, NearPointsMoveLeftWhenTheCameraMovesRight) {
   EXPECT_EQ(grid.locate(0, 1, near)->u, 50 - 2 * 1.5);
   EXPECT_EQ(grid.locate(0, 1, near)->v, 20);
   EXPECT_EQ(grid.locate(0, 2, near)->v, 20 - 3 * 1.5);
-  EXPECT_EQ(EpiSampler(std::vector<View>{{"left", 0, 0}, {"right", 2, 0}}).locate(0, 1, near)->u, 47);
+  EXPECT_EQ(EpiSampler(std::vector<View>{{"left", 0, 0}, {"right", 2, 0}}).locate(0, 1, near)->u,
+            47);
 }
 
 TEST(Samplers, EpiRefusesAViewOffTheLine) {

@@ -14,8 +14,8 @@
 
 namespace gigaray::testing_support {
 
-/// A smooth colour pattern: a few plane waves of 7 … 30 px, so that its value is known everywhere and
-/// linear interpolation between pixels is good. Values lie in (0, 1).
+/// A smooth colour pattern: a few plane waves of 7 … 30 px, so that its value is known everywhere
+/// and linear interpolation between pixels is good. Values lie in (0, 1).
 class WavePattern {
  public:
   explicit WavePattern(unsigned seed, double contrast = 1) : contrast_(contrast) {
@@ -63,7 +63,8 @@ struct AnalyticField {
 /// Renders planes, point-sampled at pixel centres: a point (x, y) of the view at (0, 0) is at
 /// (x - s d, y - t d) in view (s, t). One layer must cover everything.
 inline AnalyticField analytic_field(int width, int height, std::vector<View> views,
-                                    std::vector<Layer> layers, int bit_depth = 8, double noise = 0) {
+                                    std::vector<Layer> layers, int bit_depth = 8,
+                                    double noise = 0) {
   std::sort(layers.begin(), layers.end(),
             [](const Layer& a, const Layer& b) { return a.disparity > b.disparity; });
   std::vector<WavePattern> patterns;

@@ -47,8 +47,10 @@ inline void expect_identical(const DepthResult& a, const DepthResult& b, const s
   ASSERT_EQ(a.views.size(), b.views.size()) << what;
   for (const auto& [view, depth] : a.views) {
     const ViewDepth& other = b.views.at(view);
-    EXPECT_TRUE(same_bits(depth.disparity, other.disparity)) << what << ", disparity of view " << view;
-    EXPECT_TRUE(same_bits(depth.confidence, other.confidence)) << what << ", confidence, view " << view;
+    EXPECT_TRUE(same_bits(depth.disparity, other.disparity))
+        << what << ", disparity of view " << view;
+    EXPECT_TRUE(same_bits(depth.confidence, other.confidence))
+        << what << ", confidence, view " << view;
     EXPECT_TRUE(depth.level == other.level) << what << ", level of view " << view;
   }
   ASSERT_EQ(a.tuples.size(), b.tuples.size()) << what;

@@ -8,7 +8,8 @@
 
 namespace gigaray::testing_support {
 
-/// The least memory that a run can be given, within 64 KiB: it makes the run use files and many bands.
+/// The least memory that a run can be given, within 64 KiB: it makes the run use files and many
+/// bands.
 inline double least_memory(const LightField& light_field, DepthOptions options) {
   double too_little = 1 << 20, enough = 4e9;
   while (enough - too_little > 65536) {
