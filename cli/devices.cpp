@@ -9,6 +9,7 @@
 
 #include "command.h"
 #include "gigaray/device.h"
+#include "gigaray/tune.h"
 
 namespace gigaray::cli {
 namespace {
@@ -18,6 +19,8 @@ using Json = nlohmann::ordered_json;
 struct Options {
   bool json = false;
   bool clear_cache = false;
+  bool tune = false;
+  std::string device;
 };
 
 std::string readable_size(std::uint64_t bytes) {
@@ -103,15 +106,67 @@ void list(const Options& options) {
     print_table(devices, default_index, cache);
 }
 
+const char* verdict(const TuneResult& result, int trial) {
+  if (!result.trials[trial].failure.empty()) return "can't run";
+  if (!result.trials[trial].agrees) return "dropped: differs from the reference";
+  if (result.best == trial) return trial == 0 ? "best, as before" : "best, stored";
+  return "";
+}
+
+Json to_json(const TuneResult& result) {
+  Json trials = Json::array();
+  for (const TuneTrial& trial : result.trials)
+    trials.push_back({{"parameters", trial.parameters},
+                      {"agrees", trial.agrees},
+                      {"difference", trial.difference},
+                      {"seconds", trial.seconds},
+                      {"failure", trial.failure.empty() ? Json() : Json(trial.failure)}});
+  return {{"kernel", result.kernel},
+          {"best", result.best ? Json(*result.best) : Json()},
+          {"trials", std::move(trials)}};
+}
+
+void tune(const Options& options, const RunControl& control) {
+  const DeviceInfo device = select_device(options.device);
+  const auto results = tune_device(options.device, control);
+  if (options.json) {
+    Json kernels = Json::array();
+    for (const TuneResult& result : results) kernels.push_back(to_json(result));
+    const Json root = {{"device", device.name}, {"kernels", std::move(kernels)}};
+    fmt::print("{}\n", root.dump(2, ' ', false, Json::error_handler_t::replace));
+    return;
+  }
+  fmt::print("{}\n{:<18} {:<28} {:>10} {:>12}\n", device.name, "kernel", "setting", "ms",
+             "difference");
+  for (const TuneResult& result : results)
+    for (std::size_t i = 0; i < result.trials.size(); ++i) {
+      const TuneTrial& trial = result.trials[i];
+      fmt::print("{:<18} {:<28} {:>10.3f} {:>12.2g}  {}\n", i == 0 ? result.kernel : "",
+                 to_text(trial.parameters), trial.seconds * 1e3, trial.difference,
+                 verdict(result, int(i)));
+    }
+}
+
 }  // namespace
 
 Run devices_command(CLI::App& app) {
-  app.description("List the OpenCL devices, the kernel cache and the tuning in force");
+  app.description("List the OpenCL devices, the kernel cache and the tuning in force; tune a device");
   auto options = std::make_shared<Options>();
   app.add_flag("--json", options->json, "Print JSON");
   app.add_flag("--clear-cache", options->clear_cache,
                "First remove the compiled kernels; the tuning stays");
-  return [options](const RunControl&) { list(*options); };
+  auto* tuning = app.add_flag(
+      "--tune", options->tune,
+      "Time the settings of every kernel on a device, store the best of those that give the right "
+      "answer; up to a minute");
+  app.add_option("--device", options->device,
+                 "Device to tune: index, cpu, gpu or part of its name")
+      ->needs(tuning);
+  return [options](const RunControl& control) {
+    if (!options->tune) return list(*options);
+    if (options->clear_cache) clear_kernel_cache();
+    tune(*options, control);
+  };
 }
 
 }  // namespace gigaray::cli

@@ -26,7 +26,7 @@ class KernelCase {
   KernelCase(std::string kernel, const TrialShape& shape, const DepthOptions& options)
       : kernel_(std::move(kernel)), shape_(shape), options_(options) {}
 
-  void make_ready();
+  bool make_ready();  ///< Whether this was the first use.
   void run() { trial_->run(*backend_, kernel_); }
 
   const std::string& kernel() const { return kernel_; }

@@ -53,9 +53,9 @@ void declare(const Step& step) {
   const auto run = [kernel, step](benchmark::State& state) {
     kernel->make_ready();
     for (auto _ : state) kernel->run();
-    const double done = step.pixels(*kernel) * double(state.iterations());
     using benchmark::Counter;
-    state.counters["Mpx/s"] = Counter(done * 1e-6, Counter::kIsRate);
+    const double done = step.pixels(*kernel) * double(state.iterations());
+    state.counters["M/s"] = Counter(done * 1e-6, Counter::kIsRate);
     state.counters["GB/s"] = Counter(done * step.bytes_per_pixel * 1e-9, Counter::kIsRate);
     state.counters["copy GB/s"] = copy_limit() * 1e-9;
   };

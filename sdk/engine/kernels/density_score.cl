@@ -22,9 +22,9 @@
 #define STAGE 1
 #endif
 #ifndef MOVE_BOUND
-// Mean-shift stops when no lane moves by more than this share of the bandwidth. A score then changes
-// by less than 2 * MOVE_BOUND * ITERATIONS (the slope of the kernel is at most 2 / h); 0: only when
-// nothing moves at all, which gives the same bits as all iterations.
+// Mean-shift of a pixel stops when it moves by no more than this share of the bandwidth. A score then
+// changes by less than 2 * MOVE_BOUND * ITERATIONS (the slope of the kernel is at most 2 / h); 0: only
+// when nothing moves at all, which gives the same bits as all iterations.
 #define MOVE_BOUND 1e-4f
 #endif
 
@@ -69,24 +69,32 @@ typedef struct {
 // A squared length that no kernel reaches stands for "not inside the picture".
 #define FAR_AWAY 1e8f
 
-// Sample of view k; adds 1 to count in lanes where it sees something.
-static inline Sample take_sample(__global const float* band, const BandParams p, int k,
-                                 const BlockShift shift, int u, int v, const vfloat* own,
-                                 float inverse_h, vfloat* count) {
-  Sample sample = {0.0f, 0.0f, 0.0f, FAR_AWAY};
-  BlockPosition at;
-  vfloat inside;
-  if (!place_block(p, shift, u, v, &at, &inside)) return sample;
-  vfloat colour[3];
-  sample_block(band, p, k, at, 0, 3, colour);
+static inline Sample relative_sample(const vfloat* colour, vfloat inside, const vfloat* own,
+                                     float inverse_h) {
+  Sample sample;
   sample.red = (colour[0] - own[0]) * inverse_h;
   sample.green = (colour[1] - own[1]) * inverse_h;
   sample.blue = (colour[2] - own[2]) * inverse_h;
   const vfloat length2 =
       sample.red * sample.red + sample.green * sample.green + sample.blue * sample.blue;
   sample.length2 = VSELECT((vfloat)(FAR_AWAY), length2, inside > 0.0f);
-  *count += inside;
   return sample;
+}
+
+// Sample of view k; adds 1 to count in lanes where it sees something.
+static inline Sample take_sample(__global const float* band, const BandParams p, int k,
+                                 const BlockShift shift, int u, int v, const vfloat* own,
+                                 float inverse_h, vfloat* count) {
+  BlockPosition at;
+  vfloat inside;
+  if (!place_block(p, shift, u, v, &at, &inside)) {
+    const Sample nothing = {0.0f, 0.0f, 0.0f, FAR_AWAY};
+    return nothing;
+  }
+  vfloat colour[3];
+  sample_block(band, p, k, at, 0, 3, colour);
+  *count += inside;
+  return relative_sample(colour, inside, own, inverse_h);
 }
 
 // What the kernels of all samples have in common.
@@ -112,19 +120,22 @@ static inline void add_sample(MeanShiftSums* sums, const Sample x, vfloat w) {
   sums->blue += w * x.blue;
 }
 
-// Mean-shift step (eq. 5); where no sample is near, the mean stays. Returns the largest squared
-// distance that a lane moves by.
-static inline float move(Mean* mean, const MeanShiftSums sums) {
+// Mean-shift step (eq. 5); where no sample is near, the mean stays. Lanes that moved by MOVE_BOUND or
+// less come to rest, whatever their neighbours do. moving: 1 for the others. Returns 0 when none moves.
+static inline int move(Mean* mean, const MeanShiftSums sums, vfloat* moving) {
   const vfloat scale = 2.0f / max(sums.weights, (vfloat)(1e-12f));
-  const vfloat red = VSELECT(mean->red, sums.red * scale, sums.weights > 0.0f);
-  const vfloat green = VSELECT(mean->green, sums.green * scale, sums.weights > 0.0f);
-  const vfloat blue = VSELECT(mean->blue, sums.blue * scale, sums.weights > 0.0f);
+  const vfloat pull = sums.weights * *moving;
+  const vfloat red = VSELECT(mean->red, sums.red * scale, pull > 0.0f);
+  const vfloat green = VSELECT(mean->green, sums.green * scale, pull > 0.0f);
+  const vfloat blue = VSELECT(mean->blue, sums.blue * scale, pull > 0.0f);
   const vfloat dr = red - mean->red, dg = green - mean->green, db = blue - mean->blue;
+  const vfloat moved2 = dr * dr + dg * dg + db * db;
   mean->red = red;
   mean->green = green;
   mean->blue = blue;
   mean->offset = 1.0f - 0.25f * (red * red + green * green + blue * blue);
-  return 0.25f * largest_lane(dr * dr + dg * dg + db * db);
+  *moving = VSELECT((vfloat)(0.0f), (vfloat)(1.0f), moved2 > 4 * MOVE_BOUND * MOVE_BOUND);
+  return largest_lane(*moving) > 0.0f;
 }
 
 static inline void stage(__local vfloat* staged, int k, const Sample x) {
@@ -151,7 +162,46 @@ static inline Sample sample_again(__local const vfloat* staged, __global const f
   return take_sample(band, p, k, shifts[k], u, v, own, inverse_h, &ignored);
 #endif
 }
+// Sum of the kernels around the mean that mean-shift finds. sums: of the first iteration.
+static inline vfloat mean_shift_density(__local const vfloat* staged, __global const float* band,
+                                        const BandParams p, __global const BlockShift* shift, int u,
+                                        int v, const vfloat* own, float inverse_h,
+                                        MeanShiftSums sums) {
+  Mean mean = {1.0f, 0.0f, 0.0f, 0.0f};
+  vfloat moving = (vfloat)(1.0f);
+  for (int iteration = 0; iteration < ITERATIONS; ++iteration) {
+    if (iteration > 0) {
+      // Two sets of sums: one would leave the units waiting for the addition before.
+      MeanShiftSums even = {0.0f, 0.0f, 0.0f, 0.0f}, odd = {0.0f, 0.0f, 0.0f, 0.0f};
+      int k = 0;
+      for (; k + 1 < p.num_views; k += 2) {
+        const Sample x = sample_again(staged, band, p, k, shift, u, v, own, inverse_h);
+        add_sample(&even, x, epanechnikov(x, mean));
+        const Sample y = sample_again(staged, band, p, k + 1, shift, u, v, own, inverse_h);
+        add_sample(&odd, y, epanechnikov(y, mean));
+      }
+      if (k < p.num_views) {
+        const Sample x = sample_again(staged, band, p, k, shift, u, v, own, inverse_h);
+        add_sample(&even, x, epanechnikov(x, mean));
+      }
+      sums.weights = even.weights + odd.weights;
+      sums.red = even.red + odd.red;
+      sums.green = even.green + odd.green;
+      sums.blue = even.blue + odd.blue;
+    }
+    if (!move(&mean, sums, &moving)) break;
+  }
+  vfloat density = (vfloat)(0.0f);
+  for (int k = 0; k < p.num_views; ++k)
+    density += epanechnikov(sample_again(staged, band, p, k, shift, u, v, own, inverse_h), mean);
+  return density;
+}
 #endif
+
+static inline vfloat score_of(vfloat density, vfloat count, int min_views, float floor_views) {
+  return VSELECT((vfloat)(-1.0f), density / max(count, (vfloat)(floor_views)),
+                 count >= (float)min_views);
+}
 
 __kernel void density_score(__global const float* band, const BandParams p, const StripParams strip,
                             __global const BlockShift* shifts, const HypothesisParams hypotheses,
@@ -203,7 +253,6 @@ __kernel void density_score(__global const float* band, const BandParams p, cons
                  gradient_share * k_gradient * min(4.0f * k_colour, (vfloat)(1.0f));
     }
 #else
-    Mean mean = {1.0f, 0.0f, 0.0f, 0.0f};
     // The first iteration goes with taking the samples: around the pixel's own colour.
     MeanShiftSums sums = {0.0f, 0.0f, 0.0f, 0.0f};
     for (int k = 0; k < p.num_views; ++k) {
@@ -213,34 +262,87 @@ __kernel void density_score(__global const float* band, const BandParams p, cons
 #endif
       add_sample(&sums, x, max(1.0f - x.length2, (vfloat)(0.0f)));
     }
-    for (int iteration = 0; iteration < ITERATIONS; ++iteration) {
-      if (iteration > 0) {
-        // Two sets of sums: one would leave the units waiting for the addition before.
-        MeanShiftSums even = {0.0f, 0.0f, 0.0f, 0.0f}, odd = {0.0f, 0.0f, 0.0f, 0.0f};
-        int k = 0;
-        for (; k + 1 < p.num_views; k += 2) {
-          const Sample x = sample_again(staged, band, p, k, shift, u, v, own, inverse_h);
-          add_sample(&even, x, epanechnikov(x, mean));
-          const Sample y = sample_again(staged, band, p, k + 1, shift, u, v, own, inverse_h);
-          add_sample(&odd, y, epanechnikov(y, mean));
-        }
-        if (k < p.num_views) {
-          const Sample x = sample_again(staged, band, p, k, shift, u, v, own, inverse_h);
-          add_sample(&even, x, epanechnikov(x, mean));
-        }
-        sums.weights = even.weights + odd.weights;
-        sums.red = even.red + odd.red;
-        sums.green = even.green + odd.green;
-        sums.blue = even.blue + odd.blue;
-      }
-      if (move(&mean, sums) <= MOVE_BOUND * MOVE_BOUND) break;
-    }
-    for (int k = 0; k < p.num_views; ++k)
-      density += epanechnikov(
-          sample_again(staged, band, p, k, shift, u, v, own, inverse_h), mean);
+    density = mean_shift_density(staged, band, p, shift, u, v, own, inverse_h, sums);
 #endif
-    vfloat score = density / max(count, (vfloat)(floor_views));
-    score = VSELECT((vfloat)(-1.0f), score, count >= (float)min_views);
-    VSTORE(score, scores + score_index(strip, hypotheses.count, row, i, u));
+    VSTORE(score_of(density, count, min_views, floor_views),
+           scores + score_index(strip, hypotheses.count, row, i, u));
   }
 }
+
+#if STAGE && !GRADIENT && !CUBIC && LANES > 1
+// The same for pixels that stand far apart in their row, LANES of them together: most pixels of a
+// view are known already when its turn comes. The samples are fetched one by one; what follows is the
+// same arithmetic.
+//   packed  [block][1 + LANES] row, then the columns of its pixels
+// One work-item per block.
+__kernel void density_score_packed(
+    __global const float* band, const BandParams p, const StripParams strip,
+    __global const BlockShift* shifts, const HypothesisParams hypotheses,
+    __global const int* packed, const int blocks, __global const ushort2* bounds,
+    const float bandwidth, const int min_views, const float floor_views, __global float* scores,
+    __local vfloat* staged) {
+  if ((int)get_global_id(0) >= blocks) return;
+  __global const int* block = packed + get_global_id(0) * (1 + LANES);
+  const int row = block[0], v = strip.row_begin + row;
+  __global const int* columns = block + 1;
+
+  int first = hypotheses.count, last = -1;
+  float own[3][LANES];
+  __global const float* here = band_row(band, p, strip.ref, v);
+  for (int lane = 0; lane < LANES; ++lane) {
+    const ushort2 tested = bounds[map_index(strip, row, columns[lane])];
+    first = min(first, (int)tested.x);
+    last = max(last, (int)tested.y);
+    for (int c = 0; c < 3; ++c) own[c][lane] = here[c * p.stride + columns[lane]];
+  }
+  const vfloat own_colour[3] = {VLOAD(own[0]), VLOAD(own[1]), VLOAD(own[2])};
+  const vint u = CONCAT(vload, LANES)(0, columns);
+  const float inverse_h = 1.0f / bandwidth;
+  const size_t next = (size_t)p.num_views * CHANNELS * p.stride;
+
+  for (int i = first; i <= last; ++i) {
+    __global const BlockShift* shift = shifts + (size_t)i * p.num_views;
+    for (int k = 0; k < p.num_views; ++k) {
+      const int y = clamp(v + shift[k].whole_v, 0, p.height - 1);
+      const float fx = shift[k].fraction_u, fy = y < p.height - 1 ? shift[k].fraction_v : 0.0f;
+      __global const float* line = band_row(band, p, k, y);
+      for (int lane = 0; lane < LANES; ++lane) {
+        __global const float* x =
+            line + clamp(columns[lane] + shift[k].whole_u, 0, p.width - 1);
+        UNROLL
+        for (int c = 0; c < 3; ++c) {
+          const float2 pair = vload2(0, x + c * p.stride);
+          float colour = pair.x + fx * (pair.y - pair.x);
+          if (fy > 0.0f) {
+            const float2 below = vload2(0, x + c * p.stride + next);
+            colour += fy * (below.x + fx * (below.y - below.x) - colour);
+          }
+          ((__local float*)(staged + SLICE(4 * k + c)))[lane] = colour;
+        }
+      }
+    }
+    vfloat count = (vfloat)(0.0f);
+    MeanShiftSums sums = {0.0f, 0.0f, 0.0f, 0.0f};
+    for (int k = 0; k < p.num_views; ++k) {
+      const int y = v + shift[k].whole_v;
+      const int in_rows = y >= 0 && y + (shift[k].fraction_v > 0.0f) <= p.height - 1;
+      const int last_column = in_rows ? p.width - 1 - (shift[k].fraction_u > 0.0f) : -1;
+      const vint x = u + shift[k].whole_u;
+      const vfloat colour[3] = {staged[SLICE(4 * k)], staged[SLICE(4 * k + 1)],
+                                staged[SLICE(4 * k + 2)]};
+      const vfloat inside =
+          VSELECT((vfloat)(0.0f), (vfloat)(1.0f), x >= 0 && x <= (vint)(last_column));
+      const Sample sample = relative_sample(colour, inside, own_colour, inverse_h);
+      count += inside;
+      stage(staged, k, sample);
+      add_sample(&sums, sample, max(1.0f - sample.length2, (vfloat)(0.0f)));
+    }
+    const vfloat density =
+        mean_shift_density(staged, band, p, shift, 0, v, own_colour, inverse_h, sums);
+    float score[LANES];
+    VSTORE(score_of(density, count, min_views, floor_views), score);
+    for (int lane = 0; lane < LANES; ++lane)
+      scores[score_index(strip, hypotheses.count, row, i, columns[lane])] = score[lane];
+  }
+}
+#endif

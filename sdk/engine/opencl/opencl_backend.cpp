@@ -63,6 +63,30 @@ std::string define(const std::string& name, int value) {
   return " -D" + name + "=" + std::to_string(value);
 }
 
+/// Moves the pixels of blocks that are less than half full out of `todo`: of every row, `lanes` pixels
+/// together, as density_score_packed takes them. Depends on nothing but the row.
+std::vector<int> pack_sparse_blocks(RowRange rows, int lanes, StripMap<std::uint8_t>& todo) {
+  std::vector<int> packed, columns;
+  for (int v = rows.begin; v < rows.end; ++v) {
+    std::uint8_t* row = todo.row(v);
+    columns.clear();
+    for (int begin = 0; begin < todo.width(); begin += lanes) {
+      const int end = std::min(begin + lanes, todo.width());
+      const auto count = end - begin - std::count(row + begin, row + end, 0);
+      if (count == 0 || 2 * count >= lanes) continue;
+      for (int u = begin; u < end; ++u)
+        if (row[u]) columns.push_back(u);
+      std::fill(row + begin, row + end, 0);
+    }
+    for (std::size_t i = 0; i < columns.size(); i += lanes) {
+      packed.push_back(v - rows.begin);
+      for (std::size_t lane = i; lane < i + lanes; ++lane)
+        packed.push_back(columns[std::min(lane, columns.size() - 1)]);  // the last one again
+    }
+  }
+  return packed;
+}
+
 /// The OpenCL twin of a sampler.
 struct SamplerTwin {
   std::string kernel_file;
@@ -140,20 +164,37 @@ class OpenClBackend : public Backend {
   void density_score(int ref, RowRange rows, const StripMap<std::uint8_t>& todo,
                      const StripMap<HypothesisBounds>& bounds) override {
     const ScoreOptions& score = setup_.options.score;
-    LaneKernel& kernel =
-        lane_kernel("density_score", score_defines() +
-                                         (score.stop_early ? "" : " -DMOVE_BOUND=0.0f"));
+    const std::string options =
+        score_defines() + (score.stop_early ? "" : " -DMOVE_BOUND=0.0f");
+    LaneKernel& kernel = lane_kernel("density_score", options);
     raw_rows_ = rows;
     Buffer& scores = raw_scores_.at_least(device_, volume_bytes(rows));
     winner_reads(raw_scores_, rows);
-    const float all = float(band_.num_views);
+    const float all = float(band_.num_views), floor_views = score.floor_views * all;
     const int min_views = std::max(1, int(std::ceil(score.min_views * all)));
+    const LocalMemory staged =
+        kernel.vectors(kernel.staged ? kStagedVectors * band_.num_views : 1);
+    Buffer& tested = upload(2, rows, bounds);
+
+    StripMap<std::uint8_t> in_blocks = todo;
+    std::vector<int> packed;
+    if (kernel.staged && kernel.lanes > 1 && !score.cubic)
+      packed = pack_sparse_blocks(rows, kernel.lanes, in_blocks);
     kernel.kernel.set_args(band_memory_.buffer, band_, strip(ref, rows), block_shifts(ref),
-                           hypotheses_, upload(1, rows, todo), upload(2, rows, bounds),
-                           score.bandwidth, score.gradient_bandwidth, score.gradient_share,
-                           min_views, score.floor_views * all, scores,
-                           kernel.vectors(kernel.staged ? kStagedVectors * band_.num_views : 1));
+                           hypotheses_, upload(1, rows, in_blocks), tested, score.bandwidth,
+                           score.gradient_bandwidth, score.gradient_share, min_views, floor_views,
+                           scores, staged);
     kernel.run(band_.width, rows.size());
+    if (!packed.empty()) {
+      LaneKernel& sparse = lane_kernel("density_score", options, "density_score_packed");
+      const int blocks = int(packed.size()) / (1 + sparse.lanes);
+      Buffer& list = packed_.at_least(device_, packed.size() * sizeof(int));
+      list.write(std::span<const int>(packed));
+      sparse.kernel.set_args(band_memory_.buffer, band_, strip(ref, rows), block_shifts(ref),
+                             hypotheses_, list, blocks, tested, score.bandwidth, min_views,
+                             floor_views, scores, staged);
+      sparse.run(blocks * sparse.lanes, 1);
+    }
     device_.finish();  // so that the stage's seconds are its own
   }
 
@@ -354,12 +395,14 @@ class OpenClBackend : public Backend {
     return it->second;
   }
 
-  LaneKernel& lane_kernel(const std::string& file, const std::string& options) {
-    auto [it, is_new] = lane_kernels_.try_emplace(file + options);
+  LaneKernel& lane_kernel(const std::string& file, const std::string& options,
+                          std::string entry = "") {
+    if (entry.empty()) entry = file;
+    auto [it, is_new] = lane_kernels_.try_emplace(entry + options);
     if (is_new) {
       const opencl::Tuning tuning = tuning_of(file);
       const auto stage = tuning.find("STAGE");
-      it->second = {build(file, file, opencl::defines(tuning) + options), tuning.at("LANES"),
+      it->second = {build(file, entry, opencl::defines(tuning) + options), tuning.at("LANES"),
                     tuning.at("GROUP"), stage != tuning.end() && stage->second != 0};
     }
     return it->second;
@@ -392,7 +435,7 @@ class OpenClBackend : public Backend {
   Scratch* winner_scores_ = nullptr;  ///< the scores of score_rows_
 
   Buffer table_buffer_, active_buffer_, views_buffer_;
-  Scratch shifts_, encoded_, band_memory_, raw_scores_, supported_scores_, maps_[6];
+  Scratch shifts_, packed_, encoded_, band_memory_, raw_scores_, supported_scores_, maps_[6];
   std::map<std::string, Kernel> plain_kernels_;
   std::map<std::string, LaneKernel> lane_kernels_;
 };

@@ -15,8 +15,8 @@ namespace {
 /// As in the tests of parity: rounding, and what mean-shift makes of it.
 double tolerance_of(const std::string& kernel) {
   if (kernel == "bilateral_median") return 0;  // picks a value
-  if (kernel == "density_score" || kernel == "score_support" || kernel == "winner" ||
-      kernel == "mean_radiance")
+  if (kernel == "density_score" || kernel == "score_support" || kernel == "slanted_support" ||
+      kernel == "winner" || kernel == "mean_radiance" || kernel == "slope_fit")
     return 1e-4;
   return 4e-6;
 }
@@ -46,8 +46,9 @@ void append(std::vector<float>& values, const StripMap<T>& map, RowRange rows) {
 
 const std::vector<std::string>& KernelTrial::kernels() {
   static const std::vector<std::string> names = {
-      "unpack_channels", "edge_confidence", "density_score", "score_support", "winner",
-      "bilateral_median", "mean_radiance", "propagation", "downsample"};
+      "unpack_channels", "edge_confidence", "density_score",    "score_support",
+      "slope_fit",       "slanted_support", "winner",           "bilateral_median",
+      "mean_radiance",   "propagation",     "downsample"};
   return names;
 }
 
@@ -83,6 +84,7 @@ KernelTrial::KernelTrial(const TrialShape& shape, const DepthOptions& options)
   bounds_ = StripMap<HypothesisBounds>(width, rows());
   disparity_ = confidence_ = map_ = second_map_ = StripMap<float>(width, rows());
   radiance_ = mean_radiance_ = StripMap<Radiance>(width, rows());
+  slopes_ = fitted_slopes_ = StripMap<Slope>(width, rows());
   const HypothesisBounds full{0, std::uint16_t(shape.hypotheses - 1)};
   const double step = setup_.hypotheses.step();
   for (int v = 0; v < height; ++v) {
@@ -95,6 +97,7 @@ KernelTrial::KernelTrial(const TrialShape& shape, const DepthOptions& options)
       const float truth = scene.disparity[ref_](u, v);
       disparity_.row(v)[u] = disorder == 0 ? kNoEstimate : float(truth + (disorder % 5 - 2) * step);
       confidence_.row(v)[u] = 0.01f * float(disorder);
+      slopes_.row(v)[u] = {0.2f * float(step) * float(disorder - 5), 0.1f * float(step)};
       radiance_.row(v)[u] = {own[3 * u] / 255.0f, own[3 * u + 1] / 255.0f, own[3 * u + 2] / 255.0f};
     }
   }
@@ -131,7 +134,7 @@ std::unique_ptr<Backend> KernelTrial::opencl(const std::string& device,
 }
 
 void KernelTrial::prepare(Backend& backend, const std::string& kernel) const {
-  if (kernel == "score_support" || kernel == "winner")
+  if (kernel == "score_support" || kernel == "slanted_support" || kernel == "winner")
     backend.density_score(ref_, rows(), todo_, bounds_);
 }
 
@@ -145,6 +148,10 @@ void KernelTrial::run(Backend& backend, const std::string& kernel) {
     backend.density_score(ref_, rows(), todo_, bounds_);
   else if (kernel == "score_support")
     backend.score_support(ref_, rows(), todo_, bounds_);
+  else if (kernel == "slanted_support")
+    backend.slanted_support(ref_, rows(), todo_, bounds_, slopes_);
+  else if (kernel == "slope_fit")
+    backend.slope_fit(ref_, rows(), disparity_, fitted_slopes_);
   else if (kernel == "winner")
     backend.winner(rows(), todo_, bounds_, map_, second_map_);
   else if (kernel == "bilateral_median")
@@ -161,7 +168,7 @@ void KernelTrial::run(Backend& backend, const std::string& kernel) {
 
 std::vector<float> KernelTrial::output(Backend& backend, const std::string& kernel) {
   std::vector<float> values;
-  if (kernel == "density_score" || kernel == "score_support") {
+  if (kernel == "density_score" || kernel == "score_support" || kernel == "slanted_support") {
     for (int v = 0; v < shape_.height; ++v)
       for (int u = 0; u < shape_.width; ++u) {
         const std::vector<float> scores = backend.scores_at(u, v);
@@ -170,6 +177,8 @@ std::vector<float> KernelTrial::output(Backend& backend, const std::string& kern
   } else if (kernel == "winner") {
     append(values, map_, rows());
     append(values, second_map_, rows());
+  } else if (kernel == "slope_fit") {
+    append(values, fitted_slopes_, rows());
   } else if (kernel == "mean_radiance") {
     append(values, mean_radiance_, rows());
     for (int i = 0, v = 0; v < shape_.height; ++v)  // undefined where there is no estimate

@@ -81,6 +81,7 @@ class KernelTrial {
   StripMap<HypothesisBounds> bounds_;
   StripMap<float> disparity_, confidence_, map_, second_map_;
   StripMap<Radiance> radiance_, mean_radiance_;
+  StripMap<Slope> slopes_, fitted_slopes_;
   std::vector<PackedEstimate> estimates_;
   std::vector<float> small_;
 };
