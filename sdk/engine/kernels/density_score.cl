@@ -270,10 +270,10 @@ __kernel void density_score(__global const float* band, const BandParams p, cons
 }
 
 #if STAGE && !GRADIENT && !CUBIC && LANES > 1
-// The same for pixels that stand far apart in their row, LANES of them together: most pixels of a
-// view are known already when its turn comes. The samples are fetched one by one; what follows is the
-// same arithmetic.
-//   packed  [block][1 + LANES] row, then the columns of its pixels
+// The same for pixels that stand alone, LANES of them together: most pixels of a view are known already
+// when its turn comes. The samples are fetched one by one; what follows is the same arithmetic, and
+// every pixel gets the same bits.
+//   packed  [block][2][LANES] rows (counted from the strip's first), columns
 // One work-item per block.
 __kernel void density_score_packed(
     __global const float* band, const BandParams p, const StripParams strip,
@@ -282,67 +282,78 @@ __kernel void density_score_packed(
     const float bandwidth, const int min_views, const float floor_views, __global float* scores,
     __local vfloat* staged) {
   if ((int)get_global_id(0) >= blocks) return;
-  __global const int* block = packed + get_global_id(0) * (1 + LANES);
-  const int row = block[0], v = strip.row_begin + row;
-  __global const int* columns = block + 1;
+  __global const int* rows = packed + get_global_id(0) * 2 * LANES;
+  __global const int* columns = rows + LANES;
 
   int first = hypotheses.count, last = -1;
   float own[3][LANES];
-  __global const float* here = band_row(band, p, strip.ref, v);
   for (int lane = 0; lane < LANES; ++lane) {
-    const ushort2 tested = bounds[map_index(strip, row, columns[lane])];
+    const ushort2 tested = bounds[map_index(strip, rows[lane], columns[lane])];
     first = min(first, (int)tested.x);
     last = max(last, (int)tested.y);
-    for (int c = 0; c < 3; ++c) own[c][lane] = here[c * p.stride + columns[lane]];
+    __global const float* here =
+        band_row(band, p, strip.ref, strip.row_begin + rows[lane]) + columns[lane];
+    for (int c = 0; c < 3; ++c) own[c][lane] = here[c * p.stride];
   }
   const vfloat own_colour[3] = {VLOAD(own[0]), VLOAD(own[1]), VLOAD(own[2])};
   const vint u = CONCAT(vload, LANES)(0, columns);
+  const vint v = CONCAT(vload, LANES)(0, rows) + strip.row_begin;
   const float inverse_h = 1.0f / bandwidth;
   const size_t next = (size_t)p.num_views * CHANNELS * p.stride;
 
   for (int i = first; i <= last; ++i) {
     __global const BlockShift* shift = shifts + (size_t)i * p.num_views;
     for (int k = 0; k < p.num_views; ++k) {
-      const int y = clamp(v + shift[k].whole_v, 0, p.height - 1);
-      const float fx = shift[k].fraction_u, fy = y < p.height - 1 ? shift[k].fraction_v : 0.0f;
-      __global const float* line = band_row(band, p, k, y);
+      const float fx = shift[k].fraction_u, fy = shift[k].fraction_v;
+      const int last_column = p.width - 1 - (fx > 0.0f), last_row = p.height - 1 - (fy > 0.0f);
+      __local float* red = (__local float*)(staged + SLICE(4 * k));
+      __local float* green = (__local float*)(staged + SLICE(4 * k + 1));
+      __local float* blue = (__local float*)(staged + SLICE(4 * k + 2));
       for (int lane = 0; lane < LANES; ++lane) {
-        __global const float* x =
-            line + clamp(columns[lane] + shift[k].whole_u, 0, p.width - 1);
-        UNROLL
-        for (int c = 0; c < 3; ++c) {
-          const float2 pair = vload2(0, x + c * p.stride);
-          float colour = pair.x + fx * (pair.y - pair.x);
-          if (fy > 0.0f) {
-            const float2 below = vload2(0, x + c * p.stride + next);
-            colour += fy * (below.x + fx * (below.y - below.x) - colour);
+        const int x = columns[lane] + shift[k].whole_u;
+        const int y = strip.row_begin + rows[lane] + shift[k].whole_v;
+        float colour[3] = {0.0f, 0.0f, 0.0f};
+        if (x >= 0 && x <= last_column && y >= 0 && y <= last_row) {
+          __global const float* from = band_row(band, p, k, y) + x;
+          UNROLL
+          for (int c = 0; c < 3; ++c) {
+            const float2 pair = vload2(0, from + c * p.stride);
+            colour[c] = pair.x + fx * (pair.y - pair.x);
           }
-          ((__local float*)(staged + SLICE(4 * k + c)))[lane] = colour;
+          if (fy > 0.0f) {
+            UNROLL
+            for (int c = 0; c < 3; ++c) {
+              const float2 pair = vload2(0, from + c * p.stride + next);
+              colour[c] += fy * (pair.x + fx * (pair.y - pair.x) - colour[c]);
+            }
+          }
         }
+        red[lane] = colour[0];
+        green[lane] = colour[1];
+        blue[lane] = colour[2];
       }
     }
     vfloat count = (vfloat)(0.0f);
     MeanShiftSums sums = {0.0f, 0.0f, 0.0f, 0.0f};
     for (int k = 0; k < p.num_views; ++k) {
-      const int y = v + shift[k].whole_v;
-      const int in_rows = y >= 0 && y + (shift[k].fraction_v > 0.0f) <= p.height - 1;
-      const int last_column = in_rows ? p.width - 1 - (shift[k].fraction_u > 0.0f) : -1;
-      const vint x = u + shift[k].whole_u;
+      const vint x = u + shift[k].whole_u, y = v + shift[k].whole_v;
+      const vint last_column = p.width - 1 - (shift[k].fraction_u > 0.0f);
+      const vint last_row = p.height - 1 - (shift[k].fraction_v > 0.0f);
+      const vfloat inside = VSELECT((vfloat)(0.0f), (vfloat)(1.0f),
+                                    x >= 0 && x <= last_column && y >= 0 && y <= last_row);
       const vfloat colour[3] = {staged[SLICE(4 * k)], staged[SLICE(4 * k + 1)],
                                 staged[SLICE(4 * k + 2)]};
-      const vfloat inside =
-          VSELECT((vfloat)(0.0f), (vfloat)(1.0f), x >= 0 && x <= (vint)(last_column));
       const Sample sample = relative_sample(colour, inside, own_colour, inverse_h);
       count += inside;
       stage(staged, k, sample);
       add_sample(&sums, sample, max(1.0f - sample.length2, (vfloat)(0.0f)));
     }
     const vfloat density =
-        mean_shift_density(staged, band, p, shift, 0, v, own_colour, inverse_h, sums);
+        mean_shift_density(staged, band, p, shift, 0, 0, own_colour, inverse_h, sums);
     float score[LANES];
     VSTORE(score_of(density, count, min_views, floor_views), score);
     for (int lane = 0; lane < LANES; ++lane)
-      scores[score_index(strip, hypotheses.count, row, i, columns[lane])] = score[lane];
+      scores[score_index(strip, hypotheses.count, rows[lane], i, columns[lane])] = score[lane];
   }
 }
 #endif

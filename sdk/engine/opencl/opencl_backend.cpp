@@ -63,27 +63,29 @@ std::string define(const std::string& name, int value) {
   return " -D" + name + "=" + std::to_string(value);
 }
 
-/// Moves the pixels of blocks that are less than half full out of `todo`: of every row, `lanes` pixels
-/// together, as density_score_packed takes them. Depends on nothing but the row.
+/// Moves the pixels of blocks that are less than half full out of `todo` and puts `lanes` of them
+/// together, as density_score_packed takes them.
 std::vector<int> pack_sparse_blocks(RowRange rows, int lanes, StripMap<std::uint8_t>& todo) {
-  std::vector<int> packed, columns;
+  std::vector<int> alone_v, alone_u;
   for (int v = rows.begin; v < rows.end; ++v) {
     std::uint8_t* row = todo.row(v);
-    columns.clear();
     for (int begin = 0; begin < todo.width(); begin += lanes) {
       const int end = std::min(begin + lanes, todo.width());
       const auto count = end - begin - std::count(row + begin, row + end, 0);
       if (count == 0 || 2 * count >= lanes) continue;
       for (int u = begin; u < end; ++u)
-        if (row[u]) columns.push_back(u);
+        if (row[u]) {
+          alone_v.push_back(v - rows.begin);
+          alone_u.push_back(u);
+        }
       std::fill(row + begin, row + end, 0);
     }
-    for (std::size_t i = 0; i < columns.size(); i += lanes) {
-      packed.push_back(v - rows.begin);
-      for (std::size_t lane = i; lane < i + lanes; ++lane)
-        packed.push_back(columns[std::min(lane, columns.size() - 1)]);  // the last one again
-    }
   }
+  std::vector<int> packed;
+  for (std::size_t i = 0; i < alone_u.size(); i += lanes)
+    for (const std::vector<int>* values : {&alone_v, &alone_u})
+      for (std::size_t lane = i; lane < i + lanes; ++lane)
+        packed.push_back((*values)[std::min(lane, values->size() - 1)]);  // the last pixel again
   return packed;
 }
 
@@ -187,7 +189,7 @@ class OpenClBackend : public Backend {
     kernel.run(band_.width, rows.size());
     if (!packed.empty()) {
       LaneKernel& sparse = lane_kernel("density_score", options, "density_score_packed");
-      const int blocks = int(packed.size()) / (1 + sparse.lanes);
+      const int blocks = int(packed.size()) / (2 * sparse.lanes);
       Buffer& list = packed_.at_least(device_, packed.size() * sizeof(int));
       list.write(std::span<const int>(packed));
       sparse.kernel.set_args(band_memory_.buffer, band_, strip(ref, rows), block_shifts(ref),
