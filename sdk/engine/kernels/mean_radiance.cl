@@ -4,8 +4,9 @@
 // compares with.
 //   disparity  [row][pitch]; NaN: not accepted, nothing is written
 //   radiance   [row][pitch][3]
-// One work-item per pixel. Samples are linearly interpolated; ITERATIONS as in density_score, at
-// least one.
+//   staged     local memory, 3 vectors per view: the samples, see density_score (STAGE 1)
+// One work-item per (block of LANES pixels, row). Samples are linearly interpolated; ITERATIONS as in
+// density_score, at least one.
 
 #ifndef ITERATIONS
 #define ITERATIONS 10
@@ -13,46 +14,87 @@
 #ifndef GRADIENT
 #define GRADIENT 0  // 1: triangle kernel of colour, 0: Epanechnikov kernel
 #endif
+#ifndef STAGE
+#define STAGE 1
+#endif
+
+// A colour that no kernel reaches stands for "not inside the picture".
+#define FAR_AWAY 1e4f
+
+// What view k sees of each pixel (u + lane, v) under its own hypothesis.
+static inline void sample_pixels(__global const float* band, const BandParams p,
+                                 __global const float* views, int ref, int k, int u, int v,
+                                 const float* h, vfloat* colour) {
+  float values[3][LANES];
+  for (int lane = 0; lane < LANES; ++lane) {
+    for (int c = 0; c < 3; ++c) values[c][lane] = FAR_AWAY;
+    float x, y, h_other, fx, fy;
+    if (isnan(h[lane]) || !locate(views, ref, k, u + lane, v, h[lane], &x, &y, &h_other)) continue;
+    const int xi = split_snapped(x, &fx), yi = split_snapped(y, &fy);
+    if (xi < 0 || xi + (fx > 0.0f) > p.width - 1 || yi < 0 || yi + (fy > 0.0f) > p.height - 1)
+      continue;
+    __global const float* upper = band_row(band, p, k, yi) + xi;
+    __global const float* lower = fy > 0.0f ? band_row(band, p, k, yi + 1) + xi : upper;
+    for (int c = 0; c < 3; ++c) {
+      const int o = c * p.stride;
+      const float a = upper[o] + fx * (upper[o + 1] - upper[o]);
+      const float b = lower[o] + fx * (lower[o + 1] - lower[o]);
+      values[c][lane] = a + fy * (b - a);
+    }
+  }
+  for (int c = 0; c < 3; ++c) colour[c] = VLOAD(values[c]);
+}
 
 __kernel void mean_radiance(__global const float* band, const BandParams p, const StripParams strip,
                             __global const float* views, __global const float* disparity,
-                            const float bandwidth, __global float* radiance) {
-  const int u = get_global_id(0), row = get_global_id(1);
+                            const float bandwidth, __global float* radiance,
+                            __local vfloat* staged) {
+  const int u = get_global_id(0) * LANES, row = get_global_id(1);
   if (u >= p.width) return;
-  const size_t pixel = map_index(strip, row, u);
-  const float h = disparity[pixel];
-  if (isnan(h)) return;
   const int v = strip.row_begin + row;
+  float h[LANES];
+  int any_estimate = 0;
+  for (int lane = 0; lane < LANES; ++lane) {
+    h[lane] = u + lane < p.width ? disparity[map_index(strip, row, u + lane)] : NAN;
+    any_estimate |= !isnan(h[lane]);
+  }
+  if (!any_estimate) return;
 
-  float mean[3];
+  vfloat mean[3], colour[3];
   __global const float* own = band_row(band, p, strip.ref, v) + u;
-  for (int c = 0; c < 3; ++c) mean[c] = own[c * p.stride];
+  for (int c = 0; c < 3; ++c) mean[c] = VLOAD(own + c * p.stride);
+#if STAGE
+  for (int k = 0; k < p.num_views; ++k) {
+    sample_pixels(band, p, views, strip.ref, k, u, v, h, colour);
+    for (int c = 0; c < 3; ++c) staged[SLICE(3 * k + c)] = colour[c];
+  }
+#endif
   for (int iteration = 0; iteration < max(ITERATIONS, 1); ++iteration) {
-    float weights = 0.0f, sum[3] = {0.0f, 0.0f, 0.0f};
+    vfloat weights = (vfloat)(0.0f), sum[3] = {0.0f, 0.0f, 0.0f};
     for (int k = 0; k < p.num_views; ++k) {
-      float x, y, h_other;
-      if (!locate(views, strip.ref, k, u, v, h, &x, &y, &h_other)) continue;
-      float fx, fy;
-      const int xi = split_snapped(x, &fx), yi = split_snapped(y, &fy);
-      if (xi < 0 || xi + (fx > 0.0f) > p.width - 1 || yi < 0 || yi + (fy > 0.0f) > p.height - 1)
-        continue;
-      __global const float* upper = band_row(band, p, k, yi) + xi;
-      __global const float* lower = fy > 0.0f ? band_row(band, p, k, yi + 1) + xi : upper;
-      float colour[3], d2 = 0.0f;
-      for (int c = 0; c < 3; ++c) {
-        const int o = c * p.stride;
-        const float a = upper[o] + fx * (upper[o + 1] - upper[o]);
-        const float b = lower[o] + fx * (lower[o + 1] - lower[o]);
-        colour[c] = a + fy * (b - a);
-        d2 += (colour[c] - mean[c]) * (colour[c] - mean[c]);
-      }
-      const float w = GRADIENT ? fmax(1.0f - sqrt(d2) / bandwidth, 0.0f)
-                               : fmax(1.0f - d2 / (bandwidth * bandwidth), 0.0f);
+#if STAGE
+      UNROLL
+      for (int c = 0; c < 3; ++c) colour[c] = staged[SLICE(3 * k + c)];
+#else
+      sample_pixels(band, p, views, strip.ref, k, u, v, h, colour);
+#endif
+      const vfloat r = colour[0] - mean[0], g = colour[1] - mean[1], b = colour[2] - mean[2];
+      const vfloat d2 = r * r + g * g + b * b;
+      const vfloat w = GRADIENT ? max(1.0f - sqrt(d2) / bandwidth, (vfloat)(0.0f))
+                                : max(1.0f - d2 / (bandwidth * bandwidth), (vfloat)(0.0f));
       weights += w;
+      UNROLL
       for (int c = 0; c < 3; ++c) sum[c] += w * colour[c];
     }
-    if (!(weights > 0.0f)) break;
-    for (int c = 0; c < 3; ++c) mean[c] = sum[c] / weights;
+    // Where no sample is near, the mean stays.
+    const vfloat scale = 1.0f / max(weights, (vfloat)(1e-12f));
+    UNROLL
+    for (int c = 0; c < 3; ++c) mean[c] = VSELECT(mean[c], sum[c] * scale, weights > 0.0f);
   }
-  for (int c = 0; c < 3; ++c) radiance[3 * pixel + c] = mean[c];
+  float values[3][LANES];
+  for (int c = 0; c < 3; ++c) VSTORE(mean[c], values[c]);
+  for (int lane = 0; lane < LANES; ++lane)
+    if (!isnan(h[lane]))
+      for (int c = 0; c < 3; ++c)
+        radiance[3 * map_index(strip, row, u + lane) + c] = values[c][lane];
 }

@@ -2,8 +2,11 @@
 // Copyright (c) 2026 The Gigaray authors
 #include "opencl/buffer.h"
 
+#include <sys/mman.h>
+
 #include <cstdint>
 #include <cstdio>
+#include <memory>
 
 namespace gigaray::opencl {
 namespace {
@@ -40,6 +43,17 @@ cl_mem create(const Device& device, cl_mem_flags flags, std::size_t bytes, void*
   return memory;
 }
 
+struct Pages {
+  void* begin;
+  std::size_t bytes;
+};
+
+/// Commands may still use a buffer when its last handle goes; OpenCL calls this when none does.
+void CL_CALLBACK unmap_pages(cl_mem, void* data) {
+  const std::unique_ptr<Pages> pages(static_cast<Pages*>(data));
+  munmap(pages->begin, pages->bytes);
+}
+
 std::string to_text(const WorkSize& size) {
   std::string text;
   for (cl_uint i = 0; i < size.dimensions; ++i)
@@ -60,6 +74,32 @@ Buffer Buffer::over_host_memory(const Device& device, std::span<std::byte> memor
       Memory(create(device, CL_MEM_READ_WRITE | CL_MEM_USE_HOST_PTR, memory.size(), memory.data()));
   buffer.queue_ = device.queue();
   buffer.bytes_ = memory.size();
+  return buffer;
+}
+
+Buffer Buffer::zeroed(const Device& device, std::size_t bytes) {
+  if (!device.info().shares_host_memory) {
+    Buffer buffer(device, bytes);
+    buffer.clear();
+    return buffer;
+  }
+  constexpr int kProtection = PROT_READ | PROT_WRITE, kFlags = MAP_PRIVATE | MAP_ANONYMOUS;
+  void* const begin = mmap(nullptr, bytes, kProtection, kFlags, -1, 0);
+  if (begin == MAP_FAILED)
+    throw Error(ErrorCode::kOutOfMemory,
+                "no room for a buffer of " + readable_size(bytes) + "; use less --memory");
+  auto pages = std::make_unique<Pages>(Pages{begin, bytes});
+  madvise(begin, bytes, MADV_HUGEPAGE);  // without large pages it is only slower
+  Buffer buffer;
+  try {
+    buffer = over_host_memory(device, {static_cast<std::byte*>(begin), bytes});
+    GIGARAY_CL(clSetMemObjectDestructorCallback(buffer.get(), unmap_pages, pages.get()));
+  } catch (...) {
+    buffer = Buffer();
+    munmap(begin, bytes);
+    throw;
+  }
+  pages.release();
   return buffer;
 }
 

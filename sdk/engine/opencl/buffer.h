@@ -34,6 +34,10 @@ class Buffer {
   /// An alignment of 64 bytes lets every CPU driver do without a copy.
   static Buffer over_host_memory(const Device& device, std::span<std::byte> memory);
 
+  /// A buffer of zeros. On a device that shares the host's memory it takes no time: pages are made,
+  /// as zeros and large ones, when they are first used.
+  static Buffer zeroed(const Device& device, std::size_t bytes);
+
   std::size_t bytes() const { return bytes_; }
   cl_mem get() const { return memory_.get(); }
 

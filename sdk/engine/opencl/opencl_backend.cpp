@@ -22,14 +22,15 @@ using opencl::WorkSize;
 
 static_assert(StripMap<float>::kPad == GIGARAY_PAD);
 
-constexpr int kStagedVectors = 4;  ///< Local memory of density_score per view, see there.
+/// Local memory of density_score per view, see there; mean_radiance takes 3.
+constexpr int kStagedVectors = 4;
 
 /// A kernel that works on blocks of `lanes` pixels in groups of `group` work-items.
 struct LaneKernel {
   Kernel kernel;
   int lanes = 1;
   int group = 1;
-  bool staged = false;  ///< density_score: STAGE 1, see there.
+  bool staged = false;  ///< STAGE 1, see density_score.cl.
 
   void run(int width, int rows, int views = 1) const {
     const std::size_t blocks = (std::size_t(width) + lanes - 1) / lanes;
@@ -51,8 +52,7 @@ struct Scratch {
   Buffer& at_least(const opencl::Device& device, std::size_t size) {
     if (size > bytes) {
       buffer = Buffer();
-      buffer = Buffer(device, size);
-      buffer.clear();
+      buffer = Buffer::zeroed(device, size);
       bytes = size;
     }
     return buffer;
@@ -285,13 +285,12 @@ class OpenClBackend : public Backend {
 
   void mean_radiance(int ref, RowRange rows, const StripMap<float>& disparity,
                      StripMap<Radiance>& radiance) override {
-    Kernel& kernel = plain_kernel("mean_radiance", "mean_radiance", score_defines());
+    LaneKernel& kernel = lane_kernel("mean_radiance", score_defines());
     Buffer& out = map_out(5, rows, sizeof(Radiance));
-    constexpr int kGroup = 64;
-    kernel
-        .set_args(band_memory_.buffer, band_, strip(ref, rows), views_buffer_,
-                  upload(3, rows, disparity), setup_.options.score.bandwidth, out)
-        .run(WorkSize(round_up(band_.width, kGroup), rows.size()), WorkSize(kGroup, 1));
+    kernel.kernel.set_args(band_memory_.buffer, band_, strip(ref, rows), views_buffer_,
+                           upload(3, rows, disparity), setup_.options.score.bandwidth, out,
+                           kernel.vectors(kernel.staged ? kStagedVectors * band_.num_views : 1));
+    kernel.run(band_.width, rows.size());
     download(out, rows, radiance);
   }
 
@@ -415,10 +414,11 @@ class OpenClBackend : public Backend {
     if (const auto own = overrides_.find(kernel); own != overrides_.end())
       for (const auto& [name, value] : own->second) tuning[name] = value;
     if (tuning.contains("STAGE")) {
-      // Only the kernel with mean-shift has samples to stage, and only where local memory holds them.
+      // Only mean-shift has samples to stage, and only where local memory holds them.
       const std::size_t bytes = std::size_t(kStagedVectors) * sampler_.num_views * tuning.at("LANES") *
                                 tuning.at("GROUP") * sizeof(float);
-      if (setup_.options.score.gradient || bytes > device_.info().local_memory) tuning["STAGE"] = 0;
+      const bool once = kernel == "density_score" && setup_.options.score.gradient;
+      if (once || bytes > device_.info().local_memory) tuning["STAGE"] = 0;
     }
     return tuning;
   }
