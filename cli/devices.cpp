@@ -150,7 +150,8 @@ void tune(const Options& options, const RunControl& control) {
 }  // namespace
 
 Run devices_command(CLI::App& app) {
-  app.description("List the OpenCL devices, the kernel cache and the tuning in force; tune a device");
+  app.description(
+      "List the OpenCL devices, the kernel cache and the tuning in force; tune a device");
   auto options = std::make_shared<Options>();
   app.add_flag("--json", options->json, "Print JSON");
   app.add_flag("--clear-cache", options->clear_cache,
@@ -159,8 +160,7 @@ Run devices_command(CLI::App& app) {
       "--tune", options->tune,
       "Time the settings of every kernel on a device, store the best of those that give the right "
       "answer; up to a minute");
-  app.add_option("--device", options->device,
-                 "Device to tune: index, cpu, gpu or part of its name")
+  app.add_option("--device", options->device, "Device to tune: index, cpu, gpu or part of its name")
       ->needs(tuning);
   return [options](const RunControl& control) {
     if (!options->tune) return list(*options);

@@ -13,8 +13,8 @@
 namespace gigaray::benchmarks {
 namespace {
 
-/// The default is the size of the flower garden of the paper (section 6), with the paper's number of
-/// hypotheses.
+/// The default is the size of the flower garden of the paper (section 6), with the paper's number
+/// of hypotheses.
 struct Job {
   SyntheticOptions scene;
   DepthOptions options = paper_options();
@@ -33,7 +33,8 @@ class Garden {
   Reconstruction run(const std::vector<int>& views, FloatMap& first) {
     DepthOptions options = job_.options;
     options.views = views;
-    Reconstruction result = reconstruct(field().light_field, options, BackendChoice{}, RunControl{});
+    Reconstruction result =
+        reconstruct(field().light_field, options, BackendChoice{}, RunControl{});
     for (const int view : result.views()) {
       ViewDepth depth = result.view(view);
       if (view == result.views().front()) first = std::move(depth.disparity);
@@ -93,7 +94,8 @@ Job parse(const std::vector<std::string>& arguments) {
   for (std::size_t i = 0; i < arguments.size(); i += 2) {
     const std::string& option = arguments[i];
     if (i + 1 == arguments.size())
-      throw Error(ErrorCode::kInvalidArgument, option + ": unknown option, or its value is missing");
+      throw Error(ErrorCode::kInvalidArgument,
+                  option + ": unknown option, or its value is missing");
     const std::string& value = arguments[i + 1];
     if (option == "--views")
       job.scene.views_s = number(option, value);
@@ -111,8 +113,9 @@ Job parse(const std::vector<std::string>& arguments) {
       if (value == "paper") job.options.hypotheses = hypotheses;
     } else
       throw Error(ErrorCode::kInvalidArgument,
-                  option + ": unknown option; there are --views --rows-of-views --width --height "
-                           "--hypotheses --preset, and those of Google Benchmark");
+                  option +
+                      ": unknown option; there are --views --rows-of-views --width --height "
+                      "--hypotheses --preset, and those of Google Benchmark");
   }
   job.scene.check();
   job.options.check();
@@ -130,8 +133,8 @@ int main(int argc, char** argv) {
     const gigaray::SyntheticOptions& scene = job.scene;
     const std::string name = scene.scene + "/" + job.options.preset + "/" +
                              std::to_string(scene.views_s * scene.views_t) + "x" +
-                             std::to_string(scene.width) + "x" + std::to_string(scene.height) + "/" +
-                             std::to_string(job.options.hypotheses);
+                             std::to_string(scene.width) + "x" + std::to_string(scene.height) +
+                             "/" + std::to_string(job.options.hypotheses);
     declare(name + "/centre", garden, false);
     declare(name + "/all_views", garden, true);
   });

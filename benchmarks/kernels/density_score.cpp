@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Gigaray authors
-// Score of all hypotheses. A sample-iteration is one colour sample of one view through one mean-shift
-// iteration or through the score: pixels x hypotheses x views x (iterations + 1) of them. The time
-// holds everything: sampling, the division of every iteration, and writing the scores.
+// Score of all hypotheses. A sample-iteration is one colour sample of one view through one
+// mean-shift iteration or through the score: pixels x hypotheses x views x (iterations + 1) of
+// them. The time holds everything: sampling, the division of every iteration, and writing the
+// scores.
 #include <algorithm>
 #include <chrono>
 #include <memory>
@@ -41,8 +42,8 @@ DepthOptions every_iteration(int iterations) {
   return options;
 }
 
-/// Share of the blocks of 16 pixels in which the last iteration changed a score: a block goes on as long
-/// as one of its pixels moves.
+/// Share of the blocks of 16 pixels in which the last iteration changed a score: a block goes on as
+/// long as one of its pixels moves.
 double changed_by_last_iteration(const TrialShape& shape, int iterations) {
   const TrialShape small = KernelTrial::check_shape(shape);
   const auto scores = [&](int count) {
@@ -85,15 +86,16 @@ void time_score(benchmark::State& state, KernelCase& score, int passes, double f
 
 void declare_paper(const Rig& rig) {
   constexpr int kIterations = 10;
-  // Mean-shift: 1 difference, 3 fused and a maximum for the kernel, 1 sum and 3 fused for the mean: 6
-  // multiply-adds of 9 operations. The score: 3 of 6.
+  // Mean-shift: 1 difference, 3 fused and a maximum for the kernel, 1 sum and 3 fused for the mean:
+  // 6 multiply-adds of 9 operations. The score: 3 of 6.
   constexpr double kFma = (6.0 * kIterations + 3.0) / (kIterations + 1);
-  auto score = std::make_shared<KernelCase>("density_score", shape_of(rig),
-                                            every_iteration(kIterations));
+  auto score =
+      std::make_shared<KernelCase>("density_score", shape_of(rig), every_iteration(kIterations));
   const auto run = [score](benchmark::State& state) {
     if (score->make_ready() && changed_by_last_iteration(score->shape(), kIterations) < 0.98)
-      throw Error(ErrorCode::kDevice, "mean-shift comes to rest before its last iteration: the rate "
-                                      "would count work that was not done");
+      throw Error(ErrorCode::kDevice,
+                  "mean-shift comes to rest before its last iteration: the rate "
+                  "would count work that was not done");
     time_score(state, *score, kIterations + 1, kFma);
   };
   repeated(benchmark::RegisterBenchmark(name_of("paper", rig).c_str(), run))
@@ -101,7 +103,8 @@ void declare_paper(const Rig& rig) {
 }
 
 void declare_auto(const Rig& rig) {
-  // 5 channels of 4 taps, in 4D of 4 such rows and their 4 weights; the distances 3 + 2, the kernels
+  // 5 channels of 4 taps, in 4D of 4 such rows and their 4 weights; the distances 3 + 2, the
+  // kernels
   // 5. The kernel leaves the gradients out where no colour fits, so the share can exceed 1.
   const double taps = rig.views_t > 1 ? 5 * (4 * 4 + 4) : 5 * 4;
   DepthOptions options = auto_options();

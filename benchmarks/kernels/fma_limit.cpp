@@ -95,8 +95,8 @@ struct MachineLimit::Impl {
       // Rounds that take about 10 ms, from the time of a short run.
       constexpr int kShort = 1 << 12;
       chains.rounds = kShort;
-      chains.rounds = int(std::clamp(kShort * 0.01 / seconds_of(chains, 0.1), double(kShort),
-                                     double(1 << 28)));
+      chains.rounds =
+          int(std::clamp(kShort * 0.01 / seconds_of(chains, 0.1), double(kShort), double(1 << 28)));
       const double rate = rate_of(chains, 0.2);
       if (rate > best) {
         best = rate;
@@ -137,8 +137,9 @@ double MachineLimit::fma_per_second(double seconds) {
 double MachineLimit::copy_bytes_per_second(double seconds) {
   Device& device = impl_->device;
   const auto& info = device.info();
-  const std::size_t bytes = std::min<std::uint64_t>(
-      {std::uint64_t(impl_->is_gpu ? 1024 : 256) << 20, info.max_allocation, info.global_memory / 8});
+  const std::size_t bytes =
+      std::min<std::uint64_t>({std::uint64_t(impl_->is_gpu ? 1024 : 256) << 20, info.max_allocation,
+                               info.global_memory / 8});
   const int lanes = impl_->is_gpu ? 4 : 16;
   const std::size_t group = impl_->is_gpu ? 256 : 4096;
   const std::size_t items =

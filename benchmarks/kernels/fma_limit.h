@@ -19,7 +19,8 @@ class MachineLimit {
   /// of several runs within about `seconds`: other work disturbs some.
   double fma_per_second(double seconds = 0.2);
 
-  /// Bytes read plus bytes written per second by a kernel that copies a buffer larger than any cache.
+  /// Bytes read plus bytes written per second by a kernel that copies a buffer larger than any
+  /// cache.
   double copy_bytes_per_second(double seconds = 0.5);
 
  private:

@@ -36,8 +36,9 @@ int main(int argc, char** argv) {
   return run_program(argc, argv, [](const std::vector<std::string>& arguments) {
     if (!arguments.empty())
       throw gigaray::Error(gigaray::ErrorCode::kInvalidArgument,
-                           arguments[0] + ": unknown option; there are --benchmark_filter and the "
-                                          "others of Google Benchmark");
+                           arguments[0] +
+                               ": unknown option; there are --benchmark_filter and the "
+                               "others of Google Benchmark");
     declare_density_score();
     declare_other_steps();
   });

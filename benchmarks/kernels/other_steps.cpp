@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Gigaray authors
-// The steps around the score. What a pixel is differs: see `what` below. Bytes are what a kernel must
-// read and write once; a kernel that reads its neighbours again from a cache moves more than that.
+// The steps around the score. What a pixel is differs: see `what` below. Bytes are what a kernel
+// must read and write once; a kernel that reads its neighbours again from a cache moves more than
+// that.
 #include <functional>
 #include <memory>
 
@@ -59,7 +60,8 @@ void declare(const Step& step) {
     state.counters["GB/s"] = Counter(done * step.bytes_per_pixel * 1e-9, Counter::kIsRate);
     state.counters["copy GB/s"] = copy_limit() * 1e-9;
   };
-  const std::string name = std::string(step.kernel) + (step.paper ? "/paper/" : "/auto/") + step.what;
+  const std::string name =
+      std::string(step.kernel) + (step.paper ? "/paper/" : "/auto/") + step.what;
   repeated(benchmark::RegisterBenchmark(name.c_str(), run))->Unit(benchmark::kMillisecond);
 }
 

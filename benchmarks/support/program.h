@@ -17,8 +17,8 @@ int run_program(int argc, char** argv,
                 const std::function<void(const std::vector<std::string>& arguments)>& declare);
 
 /// Repeats a benchmark and reports the smallest and the largest of every figure beside mean, median
-/// and spread: of a rate on a noisy machine the largest says what the kernel can do, the median what
-/// it did.
+/// and spread: of a rate on a noisy machine the largest says what the kernel can do, the median
+/// what it did.
 benchmark::internal::Benchmark* repeated(benchmark::internal::Benchmark* benchmark);
 
 }  // namespace gigaray::benchmarks

@@ -62,8 +62,7 @@ TEST_F(Tune, StoresRightSettingsThatStillAgree) {
         EXPECT_EQ(tuning.parameters, best.parameters);
       }
     KernelTrial check(KernelTrial::check_shape({}), paper_options());
-    EXPECT_TRUE(KernelTrial::compare(result.kernel,
-                                     check.answer(*check.reference(), result.kernel),
+    EXPECT_TRUE(KernelTrial::compare(result.kernel, check.answer(*check.reference(), result.kernel),
                                      check.answer(*check.opencl(""), result.kernel))
                     .good())
         << result.kernel;

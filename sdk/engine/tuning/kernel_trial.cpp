@@ -46,8 +46,8 @@ void append(std::vector<float>& values, const StripMap<T>& map, RowRange rows) {
 
 const std::vector<std::string>& KernelTrial::kernels() {
   static const std::vector<std::string> names = {
-      "unpack_channels", "edge_confidence", "density_score",    "score_support",
-      "slope_fit",       "slanted_support", "winner",           "bilateral_median",
+      "unpack_channels", "edge_confidence", "density_score", "score_support",
+      "slope_fit",       "slanted_support", "winner",        "bilateral_median",
       "mean_radiance",   "propagation",     "downsample"};
   return names;
 }

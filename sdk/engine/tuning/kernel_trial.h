@@ -28,14 +28,14 @@ struct Agreement {
   double largest = 0;      ///< Largest difference.
   double share_apart = 0;  ///< Share of values beyond the tolerance, or NaN on one side only.
 
-  /// A few values may differ: mean-shift is unstable where samples pull both ways, and two hypotheses
-  /// may score alike. A wrong lane or a wrong edge is more than that on pictures as narrow as
-  /// check_shape()'s.
+  /// A few values may differ: mean-shift is unstable where samples pull both ways, and two
+  /// hypotheses may score alike. A wrong lane or a wrong edge is more than that on pictures as
+  /// narrow as check_shape()'s.
   bool good() const { return share_apart <= 0.01; }
 };
 
-/// One step of the method on a small synthetic light field, to check its answer and to time it: what
-/// tuning and the benchmarks have in common. The kernel is named as its file: "density_score".
+/// One step of the method on a small synthetic light field, to check its answer and to time it:
+/// what tuning and the benchmarks have in common. The kernel is named as its file: "density_score".
 class KernelTrial {
  public:
   static const std::vector<std::string>& kernels();
