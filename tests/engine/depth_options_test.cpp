@@ -57,6 +57,8 @@ TEST(DepthOptions, AValueOutOfRangeIsNamedWithItsField) {
       {"hypothesis_step", "nan", [](auto& o) { o.hypothesis_step = std::nan(""); }},
       {"edge.radius", "17", [](auto& o) { o.edge.radius = 17; }},
       {"edge.radius", "0", [](auto& o) { o.edge.radius = 0; }},
+      {"edge.threshold", "not a number", [](auto& o) { o.edge.threshold = NAN; }},
+      {"winner.min_confidence", "not a number", [](auto& o) { o.winner.min_confidence = NAN; }},
       {"score.bandwidth", "0", [](auto& o) { o.score.bandwidth = 0; }},
       {"score.bandwidth", "nan", [](auto& o) { o.score.bandwidth = NAN; }},
       {"score.gradient_bandwidth", "-1", [](auto& o) { o.score.gradient_bandwidth = -1; }},

@@ -56,6 +56,19 @@ void check(const LightField& light_field) {
   }
 }
 
+Image<std::uint16_t> read_view(const LightField& light_field, int view_idx) {
+  Image<std::uint16_t> picture = light_field.pixels->read(view_idx);
+  const auto size = [](int width, int height) {
+    return std::to_string(width) + "x" + std::to_string(height);
+  };
+  if (picture.width() != light_field.width || picture.height() != light_field.height ||
+      picture.channels() != 3)
+    bad("view " + light_field.views[view_idx].name + " is " +
+        size(picture.width(), picture.height()) + ", the others are " +
+        size(light_field.width, light_field.height));
+  return picture;
+}
+
 std::vector<int> views_from_centre(const LightField& light_field) {
   std::vector<int> order(light_field.views.size());
   std::iota(order.begin(), order.end(), 0);

@@ -47,11 +47,7 @@ __kernel void bilateral_median(__global const float* band, const BandParams p,
 #if BILATERAL
       __global const float* here = band_row(band, p, strip.ref, v) + u;
       __global const float* there = band_row(band, p, strip.ref, y) + u + k;
-      vfloat d2 = (vfloat)(0.0f);
-      for (int c = 0; c < 3; ++c) {
-        const vfloat d = VLOAD(there + c * p.stride) - VLOAD(here + c * p.stride);
-        d2 += d * d;
-      }
+      const vfloat d2 = colour_distance2(there, here, p.stride);
       counts = counts && d2 < tolerance * tolerance;
 #endif
       counts = VTRUE(counts);

@@ -94,6 +94,31 @@ static inline int split_snapped(float x, float* fraction) {
   return whole + up;
 }
 
+// Squared colour distance of LANES neighbouring pixels of two rows.
+static inline vfloat colour_distance2(__global const float* a, __global const float* b,
+                                      int stride) {
+  vfloat sum = (vfloat)(0.0f);
+  UNROLL
+  for (int c = 0; c < 3; ++c) {
+    const vfloat d = VLOAD(a + c * stride) - VLOAD(b + c * stride);
+    sum += d * d;
+  }
+  return sum;
+}
+
+// First and last hypothesis that any pixel of a block wants tested; last is -1 when none is to do.
+static inline int2 block_bounds(__global const uchar* todo, __global const ushort2* bounds,
+                                const StripParams strip, int row, int u) {
+  int2 block = (int2)(INT_MAX, -1);
+  for (int lane = 0; lane < LANES; ++lane) {
+    const size_t i = map_index(strip, row, u + lane);
+    if (!todo[i]) continue;
+    block.x = min(block.x, (int)bounds[i].x);
+    block.y = max(block.y, (int)bounds[i].y);
+  }
+  return block;
+}
+
 // Catmull-Rom weights of the taps at -1, 0, 1, 2 for a fraction f in [0, 1).
 static inline float4 cubic_weights(float f) {
   const float f2 = f * f, f3 = f2 * f;

@@ -213,14 +213,8 @@ __kernel void density_score(__global const float* band, const BandParams p, cons
   if (u >= strip.width) return;
   const int v = strip.row_begin + row;
 
-  int first = hypotheses.count, last = -1;
-  for (int lane = 0; lane < LANES; ++lane) {
-    const size_t i = map_index(strip, row, u + lane);
-    if (todo[i]) {
-      first = min(first, (int)bounds[i].x);
-      last = max(last, (int)bounds[i].y);
-    }
-  }
+  const int2 tested = block_bounds(todo, bounds, strip, row, u);
+  const int first = tested.x, last = tested.y;
   if (last < 0) return;
 
   vfloat own[CHANNELS];

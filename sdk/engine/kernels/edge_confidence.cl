@@ -16,11 +16,7 @@
 #endif
 
 static inline vfloat colour_difference(__global const float* a, __global const float* b, int stride) {
-  vfloat sum = (vfloat)(0.0f);
-  for (int c = 0; c < 3; ++c) {
-    const vfloat d = VLOAD(a + c * stride) - VLOAD(b + c * stride);
-    sum += d * d;
-  }
+  const vfloat sum = colour_distance2(a, b, stride);
   return SQUARED ? sum : sqrt(sum);
 }
 

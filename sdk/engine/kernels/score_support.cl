@@ -23,14 +23,8 @@ __kernel void score_support(__global const float* band, const BandParams p, cons
   if (u >= strip.width) return;
   const int v = strip.row_begin + row;
 
-  int first = hypotheses.count, last = -1;
-  for (int lane = 0; lane < LANES; ++lane) {
-    const size_t i = map_index(strip, row, u + lane);
-    if (todo[i]) {
-      first = min(first, (int)bounds[i].x);
-      last = max(last, (int)bounds[i].y);
-    }
-  }
+  const int2 tested = block_bounds(todo, bounds, strip, row, u);
+  const int first = tested.x, last = tested.y;
   if (last < 0) return;
 
   const vint x = u + VLANES;
@@ -40,11 +34,7 @@ __kernel void score_support(__global const float* band, const BandParams p, cons
   for (int y = top; y <= bottom; ++y) {
     __global const float* there = band_row(band, p, strip.ref, y) + u;
     for (int k = -RADIUS; k <= RADIUS; ++k) {
-      vfloat d2 = (vfloat)(0.0f);
-      for (int c = 0; c < 3; ++c) {
-        const vfloat d = VLOAD(there + c * p.stride + k) - VLOAD(here + c * p.stride);
-        d2 += d * d;
-      }
+      const vfloat d2 = colour_distance2(there + k, here, p.stride);
       const float space = ((y - v) * (y - v) + k * k) / (2.0f * sigma_space * sigma_space);
       vfloat w = exp(-d2 / (2.0f * sigma_colour * sigma_colour) - space);
       w = VSELECT((vfloat)(0.0f), w, x + k >= 0 && x + k < p.width);

@@ -25,22 +25,17 @@ __kernel void slanted_support(__global const float* band, const BandParams p,
   if (u >= strip.width) return;
   const int v = strip.row_begin + row;
 
-  int first = hypotheses.count, last = -1;
-  vfloat slope_u = (vfloat)(0.0f), slope_v = (vfloat)(0.0f);
+  const int2 tested = block_bounds(todo, bounds, strip, row, u);
+  const int first = tested.x, last = tested.y;
+  if (last < 0) return;
+
+  // Slopes of the pixels to do: elsewhere they may be anything.
+  float pair[2][LANES];
   for (int lane = 0; lane < LANES; ++lane) {
     const size_t i = map_index(strip, row, u + lane);
-    if (!todo[i]) continue;
-    first = min(first, (int)bounds[i].x);
-    last = max(last, (int)bounds[i].y);
-#if LANES == 1
-    slope_u = slopes[2 * i];
-    slope_v = slopes[2 * i + 1];
-#else
-    ((float*)&slope_u)[lane] = slopes[2 * i];
-    ((float*)&slope_v)[lane] = slopes[2 * i + 1];
-#endif
+    for (int c = 0; c < 2; ++c) pair[c][lane] = todo[i] ? slopes[2 * i + c] : 0.0f;
   }
-  if (last < 0) return;
+  const vfloat slope_u = VLOAD(pair[0]), slope_v = VLOAD(pair[1]);
 
   const vint x = u + VLANES;
   const float per_step = 1.0f / hypotheses.step;
@@ -50,11 +45,7 @@ __kernel void slanted_support(__global const float* band, const BandParams p,
   for (int y = top; y <= bottom; ++y) {
     __global const float* there = band_row(band, p, strip.ref, y) + u;
     for (int k = -RADIUS; k <= RADIUS; ++k) {
-      vfloat d2 = (vfloat)(0.0f);
-      for (int c = 0; c < 3; ++c) {
-        const vfloat d = VLOAD(there + c * p.stride + k) - VLOAD(here + c * p.stride);
-        d2 += d * d;
-      }
+      const vfloat d2 = colour_distance2(there + k, here, p.stride);
       const float space = ((y - v) * (y - v) + k * k) / (2.0f * sigma_space * sigma_space);
       vfloat w = exp(-d2 / (2.0f * sigma_colour * sigma_colour) - space);
       w = VSELECT((vfloat)(0.0f), w, x + k >= 0 && x + k < p.width);

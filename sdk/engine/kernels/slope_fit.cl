@@ -38,11 +38,7 @@ __kernel void slope_fit(__global const float* band, const BandParams p, const St
         const float du = STRIDE * i, dv = STRIDE * j;
         const vfloat rise = VLOAD(in + map_index(strip, y - in_begin, u) + STRIDE * i) - own;
         const vfloat residual = (rise - slope_u * du - slope_v * dv) * inverse_scale;
-        vfloat d2 = (vfloat)(0.0f);
-        for (int c = 0; c < 3; ++c) {
-          const vfloat d = VLOAD(there + c * p.stride + STRIDE * i) - VLOAD(here + c * p.stride);
-          d2 += d * d;
-        }
+        const vfloat d2 = colour_distance2(there + STRIDE * i, here, p.stride);
         const float space = (du * du + dv * dv) / (2.0f * SIGMA_SPACE * SIGMA_SPACE);
         const vfloat biweight = max(1.0f - residual * residual, (vfloat)(0.0f));
         vfloat w = exp(-d2 / (2.0f * SIGMA_COLOUR * SIGMA_COLOUR) - space) * biweight * biweight;

@@ -35,6 +35,10 @@ void DepthOptions::check() const {
   if (hypotheses != 0) in_range("hypotheses", hypotheses, 2, 4096);
   in_range("hypothesis_step", hypothesis_step, 1e-4, 100.0);
   in_range("edge.radius", edge.radius, 1, 16);
+  if (std::isnan(edge.threshold))
+    throw Error(ErrorCode::kInvalidArgument, "edge.threshold is not a number");
+  if (std::isnan(winner.min_confidence))
+    throw Error(ErrorCode::kInvalidArgument, "winner.min_confidence is not a number");
   in_range("score.bandwidth", score.bandwidth, kTiny, kLarge);
   in_range("score.gradient_bandwidth", score.gradient_bandwidth, kTiny, kLarge);
   in_range("score.gradient_share", score.gradient_share, 0.0f, 1.0f);

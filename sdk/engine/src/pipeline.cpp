@@ -76,12 +76,7 @@ void Pipeline::decode() {
       for (int view; (view = next++) < light_field_.num_views();) {
         if (control_.cancelled()) break;
         if (is_caller) control_.progress("decode", done, light_field_.num_views());
-        const Image<std::uint16_t> picture = light_field_.pixels->read(view);
-        if (picture.width() != width || picture.height() != height || picture.channels() != 3)
-          throw Error(ErrorCode::kBadInput,
-                      "view " + light_field_.views[view].name + " is " +
-                          std::to_string(picture.width()) + "x" + std::to_string(picture.height()) +
-                          ", the others are " + std::to_string(width) + "x" + std::to_string(height));
+        const Image<std::uint16_t> picture = read_view(light_field_, view);
         for (int v = 0; v < height; ++v) {
           const void* row = picture.row(v);
           if (value_bytes == 1) {

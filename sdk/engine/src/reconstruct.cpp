@@ -215,7 +215,7 @@ ScoreCurve probe(const LightField& light_field, const DepthOptions& options,
   std::vector<std::uint16_t> encoded(rows.size() * views * line);
   for (std::size_t view = 0; view < views; ++view) {
     control.progress("decode", double(view), double(views));
-    const Image<std::uint16_t> picture = light_field.pixels->read(int(view));
+    const Image<std::uint16_t> picture = read_view(light_field, int(view));
     for (int y = rows.begin; y < rows.end; ++y)
       std::copy_n(picture.row(y), line,
                   encoded.begin() + (std::size_t(y - rows.begin) * views + view) * line);

@@ -40,12 +40,7 @@ LightField subset(const LightField& light_field, const std::vector<int>& views) 
 
 /// A view as a band of its own, encoded RGB (and gradients), all rows.
 Band view_band(const LightField& light_field, int view, int channels) {
-  const Image<std::uint16_t> picture = light_field.pixels->read(view);
-  if (picture.width() != light_field.width || picture.height() != light_field.height)
-    throw Error(ErrorCode::kBadInput,
-                "view " + light_field.views[view].name + " is " + std::to_string(picture.width()) + "x" +
-                    std::to_string(picture.height()) + ", the others are " +
-                    std::to_string(light_field.width) + "x" + std::to_string(light_field.height));
+  const Image<std::uint16_t> picture = read_view(light_field, view);
   Band band{{0, picture.width(), picture.height()}, {0, picture.height()}, 1, channels, {}};
   band.data.resize(picture.size() / 3 * channels);
   std::vector<float> table(std::size_t(1) << light_field.pixels->bit_depth());

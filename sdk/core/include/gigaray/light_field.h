@@ -78,6 +78,10 @@ struct LightField {
 /// views, two views at one place, names that repeat, non-finite positions, sizes below 1.
 void check(const LightField& light_field);
 
+/// The picture of a view, see PixelSource::read. Throws Error(kBadInput) naming the view when its size
+/// is not that of the light field.
+Image<std::uint16_t> read_view(const LightField& light_field, int view_idx);
+
 /// Index of the view nearest to the centre of the rig (ties: smaller s, then smaller t).
 int centre_view(const LightField& light_field);
 
