@@ -17,8 +17,7 @@
 namespace gigaray::cli {
 namespace {
 
-constexpr int kMaxDrawn = 64;      // views per axis of the drawn grid
-constexpr double kMaxShift = 0.3;  // view steps from a point of the grid
+constexpr int kMaxDrawn = 64;  // letters per axis of the drawn grid
 
 using nlohmann::ordered_json;
 
@@ -59,28 +58,51 @@ Bounds bounds(const std::vector<View>& views, Coordinate coordinate) {
   return {coordinate(*low), coordinate(*high)};
 }
 
-// The camera plane seen from behind the cameras, one letter per view step; empty when the views are
-// too many or too irregular for it.
-std::vector<std::string> drawn_grid(const LightField& light_field) {
-  const Bounds s = bounds(light_field.views, [](const View& view) { return view.s; });
-  const Bounds t = bounds(light_field.views, [](const View& view) { return view.t; });
-  const long columns = std::lround(s.max - s.min) + 1, rows = std::lround(t.max - t.min) + 1;
-  if (columns > kMaxDrawn || rows > kMaxDrawn) return {};
-  std::vector<std::string> grid(rows, std::string(2 * columns - 1, ' '));
-  for (long row = 0; row < rows; ++row)
-    for (long column = 0; column < columns; ++column) grid[row][2 * column] = '.';
-  const int centre = centre_view(light_field);
-  for (int i = 0; i < light_field.num_views(); ++i) {
-    const View& view = light_field.views[i];
-    const double column = view.s - s.min, row = view.t - t.min;
-    if (std::abs(column - std::round(column)) > kMaxShift ||
-        std::abs(row - std::round(row)) > kMaxShift)
-      return {};
-    char& cell = grid[std::lround(row)][2 * std::lround(column)];
-    if (cell != '.') return {};
-    cell = i == centre ? 'O' : 'x';
+/// The views of one axis in `count` equal places from the first to the last.
+struct DrawnAxis {
+  Bounds bounds;
+  long count;
+
+  DrawnAxis(Bounds extent, double step)
+      : bounds(extent), count(std::lround((extent.max - extent.min) / step) + 1) {}
+  double place(double position) const {
+    if (count == 1) return 0;
+    return (position - bounds.min) / (bounds.max - bounds.min) * double(count - 1);
   }
-  return grid;
+};
+
+/// The camera plane seen from behind the cameras: O the centre, x views, - views left out, . places
+/// without a view. A letter is one view step in a regular grid; measured positions go to the
+/// nearest place of the coarsest grid that has one for each. Empty when that takes too many
+/// letters.
+std::vector<std::string> drawn_grid(const LightField& light_field) {
+  constexpr double kRegular = 0.02;                                  // view steps
+  constexpr double kCoarsest = 1.25, kFinest = 0.25, kFiner = 0.95;  // view steps per letter
+  std::vector<View> all = light_field.views;
+  all.insert(all.end(), light_field.left_out.begin(), light_field.left_out.end());
+  const Bounds s = bounds(all, [](const View& view) { return view.s; });
+  const Bounds t = bounds(all, [](const View& view) { return view.t; });
+  const bool regular = std::all_of(all.begin(), all.end(), [&](const View& view) {
+    return std::abs(std::remainder(view.s - s.min, 1)) < kRegular &&
+           std::abs(std::remainder(view.t - t.min, 1)) < kRegular;
+  });
+  const int centre = centre_view(light_field);
+  for (double step = regular ? 1 : kCoarsest; step >= kFinest; step *= kFiner) {
+    const DrawnAxis columns(s, step), rows(t, step);
+    if (columns.count > kMaxDrawn || rows.count > kMaxDrawn) return {};
+    std::string row(2 * columns.count - 1, ' ');
+    for (long column = 0; column < columns.count; ++column) row[2 * column] = '.';
+    std::vector<std::string> grid(rows.count, row);
+    bool shared = false;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      char& cell =
+          grid[std::lround(rows.place(all[i].t))][2 * std::lround(columns.place(all[i].s))];
+      shared |= cell != '.';
+      cell = int(i) == centre ? 'O' : i < light_field.views.size() ? 'x' : '-';
+    }
+    if (!shared) return grid;
+  }
+  return {};
 }
 
 std::string rig_text(const RigGeometry& rig) {
@@ -122,6 +144,8 @@ void print_text(const LightField& light_field, const DepthForecast& depth) {
                                       s.max, t.min, t.max));
   if (light_field.kind == LightFieldKind::k4D)
     for (const std::string& row : drawn_grid(light_field)) line("", row);
+  if (!light_field.left_out.empty())
+    line("left out", fmt::format("{}, drawn as -", light_field.left_out.size()));
   line("centre", views[centre_view(light_field)].name);
   line("rig", rig_text(light_field.rig));
   line("disparity",
@@ -165,6 +189,9 @@ void print_json(const LightField& light_field, const DepthForecast& depth) {
   root["views"] = ordered_json::array();
   for (const View& view : light_field.views)
     root["views"].push_back({{"name", view.name}, {"s", view.s}, {"t", view.t}});
+  root["left_out"] = ordered_json::array();
+  for (const View& view : light_field.left_out)
+    root["left_out"].push_back({{"name", view.name}, {"s", view.s}, {"t", view.t}});
   fmt::print("{}\n", root.dump(2, ' ', false, ordered_json::error_handler_t::replace));
 }
 

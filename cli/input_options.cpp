@@ -3,24 +3,63 @@
 #include "input_options.h"
 
 #include <map>
+#include <regex>
 #include <string>
 
 namespace gigaray::cli {
+namespace {
+
+Travel way_of(const std::string& word, const std::string& text) {
+  static const std::map<std::string, Travel> kWays{{"right", Travel::kRight},
+                                                   {"left", Travel::kLeft},
+                                                   {"down", Travel::kDown},
+                                                   {"up", Travel::kUp}};
+  const auto found = kWays.find(word);
+  if (found == kWays.end())
+    throw CLI::ValidationError("--direction",
+                               "'" + text +
+                                   "' is not one of right, left, down, up, two of them as in "
+                                   "left,up, or auto");
+  return found->second;
+}
+
+void parse_direction(const std::string& text, OpenOptions& open) {
+  open.direction = open.row_direction = Travel::kAuto;
+  if (text == "auto") return;
+  const auto comma = text.find(',');
+  open.direction = way_of(text.substr(0, comma), text);
+  if (comma != std::string::npos) open.row_direction = way_of(text.substr(comma + 1), text);
+}
+
+void parse_lenslet(const std::string& text, OpenOptions& open) {
+  static const std::regex kSize(R"((\d{1,3})(?:x(\d{1,3}))?)");
+  std::smatch match;
+  if (!std::regex_match(text, match, kSize))
+    throw CLI::ValidationError("--lenslet", "'" + text + "' is no grid size like 14 or 15x13");
+  open.lenslet.columns = std::stoi(match[1]);
+  open.lenslet.rows = match[2].matched ? std::stoi(match[2]) : open.lenslet.columns;
+}
+
+}  // namespace
 
 void InputOptions::add_to(CLI::App& app) {
-  static const std::map<std::string, Travel> kDirections{
-      {"auto", Travel::kAuto}, {"left", Travel::kLeft}, {"right", Travel::kRight}};
   app.add_option("INPUT", input, "Folder or file of the light field")->required();
   app.add_option("--positions", open.positions,
                  "Text file: where each picture was taken, 'right', 'right down' or "
                  "'name right down' per line")
       ->type_name("FILE");
-  app.add_option("--direction", open.direction,
-                 "Way of the camera as the numbers of the pictures rise: left, right or auto "
-                 "(default: right is assumed and checked)")
-      ->transform(CLI::Transformer(kDirections).description(""))
-      ->check(CLI::IsMember({Travel::kAuto, Travel::kLeft, Travel::kRight}).description(""))
+  app.add_option_function<std::string>(
+         "--direction", [this](const std::string& text) { parse_direction(text, open); },
+         "Way of the camera as the numbers of the pictures rise: right, left, down or up; in a "
+         "grid "
+         "two of them, as the column (or x) and as the row (or y) rises: left,up (default: "
+         "assumed, and found by `depth` where views agree best)")
       ->type_name("WAY");
+  app.add_option_function<std::string>(
+         "--lenslet", [this](const std::string& text) { parse_lenslet(text, open); },
+         "One lenslet picture: its views across and down, as in 14 or 15x13 (default: 14 for "
+         "…_eslf)")
+      ->type_name("N");
 }
 
 }  // namespace gigaray::cli

@@ -4,6 +4,7 @@
 
 #include "gigaray/adapters/maps.h"
 #include "gigaray/error.h"
+#include "gigaray/metric_depth.h"
 
 namespace gigaray {
 
@@ -12,6 +13,8 @@ void DepthFolder::write_maps(const std::filesystem::path& folder, const FloatMap
   write_pfm(folder / "disparity.pfm", disparity);
   write_pfm(folder / "confidence.pfm", confidence);
   write_depth_picture(folder / "depth.png", disparity, pictured_);
+  if (has_metric_depth(rig_))
+    write_pfm(folder / "depth.pfm", depth_from_disparity(disparity, rig_));
   if (formats_.contains(MapFormat::kExr)) {
     write_exr(folder / "disparity.exr", disparity);
     write_exr(folder / "confidence.exr", confidence);

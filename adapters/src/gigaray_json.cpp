@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <system_error>
 
+#include "camera_position.h"
 #include "gigaray/adapters/atomic_output.h"
 #include "gigaray/adapters/light_field_json.h"
 #include "picture_files.h"
@@ -83,9 +84,7 @@ class GigarayJsonReader : public Reader {
   }
 
   LightField open(const fs::path& input, const OpenOptions& options) const override {
-    if (options.direction != Travel::kAuto)
-      throw Error(ErrorCode::kInvalidArgument,
-                  "--direction: gigaray.json states its positions; leave the option out");
+    refuse_direction(options, "gigaray.json states");
     const fs::path path = json_of(input);
     const auto bad = [&](const std::string& what) {
       return Error(ErrorCode::kBadInput, path.string() + ": " + what);

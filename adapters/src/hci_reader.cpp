@@ -109,9 +109,7 @@ class HciReader : public Reader {
   }
 
   LightField open(const fs::path& input, const OpenOptions& options) const override {
-    if (options.direction != Travel::kAuto)
-      throw Error(ErrorCode::kInvalidArgument,
-                  "--direction: an HCI scene states its positions; leave the option out");
+    refuse_direction(options, "an HCI scene states");
     const std::map<int, fs::path> cameras = cameras_of(input);
     LightField light_field;
     const fs::path parameter_file = input / "parameters.cfg";

@@ -3,56 +3,17 @@
 // A folder of numbered pictures, taken along a line at equal steps or at stated positions.
 #include <algorithm>
 #include <cstdint>
-#include <limits>
-#include <map>
-#include <set>
 
 #include "camera_position.h"
+#include "numbered_names.h"
 #include "picture_files.h"
 #include "positions_file.h"
 #include "readers.h"
-#include "text.h"
 
 namespace gigaray {
 namespace {
 
 namespace fs = std::filesystem;
-
-struct Numbered {
-  fs::path path;
-  std::string pattern;                 // the name with '#' for every number
-  std::vector<std::uint64_t> numbers;  // saturated
-};
-
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
-
-Numbered numbered(const fs::path& path) {
-  Numbered result{path, "", {}};
-  const std::string name = path.stem().string();
-  for (std::size_t i = 0; i < name.size();) {
-    if (!is_digit(name[i])) {
-      result.pattern += name[i++];
-      continue;
-    }
-    std::uint64_t value = 0;
-    constexpr std::uint64_t kLimit = std::numeric_limits<std::uint64_t>::max() / 10 - 1;
-    for (; i < name.size() && is_digit(name[i]); ++i)
-      value = value > kLimit ? value : value * 10 + std::uint64_t(name[i] - '0');
-    result.pattern += '#';
-    result.numbers.push_back(value);
-  }
-  result.pattern += lower(path.extension().string());
-  return result;
-}
-
-std::vector<Numbered> in_order(const std::vector<fs::path>& pictures) {
-  std::vector<Numbered> all;
-  for (const fs::path& path : pictures) all.push_back(numbered(path));
-  std::sort(all.begin(), all.end(), [](const Numbered& a, const Numbered& b) {
-    return std::tie(a.pattern, a.numbers, a.path) < std::tie(b.pattern, b.numbers, b.path);
-  });
-  return all;
-}
 
 [[noreturn]] void bad(const fs::path& input, const std::string& what) {
   throw Error(ErrorCode::kBadInput, input.string() + ": " + what);
@@ -67,41 +28,28 @@ struct Series {
 // The largest group of pictures whose names differ in numbers only, and the one number that
 // changes.
 Series series_of(const fs::path& input, const std::vector<fs::path>& pictures) {
-  std::map<std::string, std::vector<Numbered>> groups;
-  for (Numbered& picture : in_order(pictures))
-    if (!picture.numbers.empty()) groups[picture.pattern].push_back(picture);
-  if (groups.empty())
+  const NameGroup group = largest_group(pictures);
+  if (group.pictures.empty())
     bad(input, "the pictures have no numbers in their names; state their places with --positions");
-  const auto largest = std::max_element(
-      groups.begin(), groups.end(),
-      [](const auto& a, const auto& b) { return a.second.size() < b.second.size(); });
-  const std::vector<Numbered>& group = largest->second;
-  const std::string first = group.front().path.filename().string();
-  for (const auto& [pattern, other] : groups)
-    if (pattern != largest->first && 2 * other.size() > group.size())
-      bad(input, "holds more than one series of pictures, " + first + " … and " +
-                     other.front().path.filename().string() + " …; keep one per folder");
-
-  std::set<std::size_t> changing;
-  for (const Numbered& picture : group)
-    for (std::size_t i = 0; i < picture.numbers.size(); ++i)
-      if (picture.numbers[i] != group.front().numbers[i]) changing.insert(i);
-  if (changing.size() > 1)
-    bad(input, "more than one number changes in the names (" + first + " … " +
-                   group.back().path.filename().string() +
-                   "); state the places of the views with --positions");
-  const std::size_t which = changing.empty() ? 0 : *changing.begin();
+  if (!group.rival.empty())
+    bad(input, "holds more than one series of pictures, " + group.first_name() + " … and " +
+                   group.rival + " …; keep one per folder");
+  if (group.changing.size() > 1)
+    bad(input, "more than one number changes in the names (" + group.first_name() + " … " +
+                   group.pictures.back().path.filename().string() +
+                   ") and they form no grid; state the places of the views with --positions");
+  const std::size_t which = group.changing.empty() ? 0 : *group.changing.begin();
 
   Series series;
-  for (const Numbered& picture : group) {
+  for (const NumberedPicture& picture : group.pictures) {
     if (!series.numbers.empty() && series.numbers.back() == picture.numbers[which])
       bad(input, series.files.back().filename().string() + " and " +
                      picture.path.filename().string() + " have the same number");
     series.files.push_back(picture.path);
     series.numbers.push_back(picture.numbers[which]);
   }
-  if (group.size() < pictures.size())
-    series.notes.push_back(std::to_string(pictures.size() - group.size()) +
+  if (group.pictures.size() < pictures.size())
+    series.notes.push_back(std::to_string(pictures.size() - group.pictures.size()) +
                            " other pictures in the folder are left out");
   return series;
 }
@@ -138,7 +86,8 @@ class ImageSequenceReader : public Reader {
   ProbeResult probe(const fs::path& input) const override {
     std::error_code ignored;
     if (!fs::is_directory(input, ignored))
-      return {0, is_picture_name(input) ? "is one picture; name the folder of the light field"
+      return {0, is_picture_name(input) ? "is one picture; name the folder of the light field, or "
+                                          "state the views of a lenslet picture with --lenslet"
                                         : "is no light field that this program knows"};
     if (pictures_of(input).empty())
       return {0, "no pictures in this folder (folders inside it are not searched)"};
@@ -150,13 +99,14 @@ class ImageSequenceReader : public Reader {
     if (pictures.size() < 2)
       bad(input, "only one picture, " + pictures.front().filename().string() +
                      "; a light field needs two or more");
-    return options.positions.empty() ? open_numbered(input, pictures, options.direction)
+    return options.positions.empty() ? open_numbered(input, pictures, options)
                                      : open_placed(pictures, options);
   }
 
  private:
   static LightField open_numbered(const fs::path& input, const std::vector<fs::path>& pictures,
-                                  Travel direction) {
+                                  const OpenOptions& options) {
+    const Directions directions = Directions::of_series(options, Travel::kRight);
     Series series = series_of(input, pictures);
     if (series.files.size() < 2) bad(input, "only one numbered picture; a light field needs two");
     const std::vector<double> steps = steps_from_numbers(series.numbers, series.notes);
@@ -164,29 +114,28 @@ class ImageSequenceReader : public Reader {
     LightField light_field;
     light_field.notes = std::move(series.notes);
     const double middle = steps.back() / 2;
-    const double towards = direction == Travel::kLeft ? -1 : 1;
     for (std::size_t i = 0; i < steps.size(); ++i) {
       View view;
       view.name = series.files[i].stem().string();
-      place_camera(view, towards * (steps[i] - middle), 0);
+      directions.place(view, steps[i] - middle, 0);
       light_field.views.push_back(view);
     }
-    light_field.kind = LightFieldKind::k3D;
-    if (direction == Travel::kAuto) {
+    light_field.kind = kind_from_positions(light_field.views);
+    if (!directions.stated()) {
       light_field.sign_is_assumed = true;
-      light_field.notes.push_back("the camera is assumed to move to the right as the "
-                                  "numbers rise (--direction states it)");
+      light_field.notes.push_back(
+          "the camera is assumed to move to the right as the "
+          "numbers rise (--direction states it)");
     }
     attach_pictures(light_field, std::move(series.files));
     return light_field;
   }
 
   static LightField open_placed(const std::vector<fs::path>& pictures, const OpenOptions& options) {
-    if (options.direction != Travel::kAuto)
-      throw Error(ErrorCode::kInvalidArgument,
-                  "--direction: --positions states where the cameras stand; leave one of them out");
+    refuse_direction(options, "--positions states");
     std::vector<fs::path> files;
-    for (const Numbered& picture : in_order(pictures)) files.push_back(picture.path);
+    for (const NumberedPicture& picture : numbered_pictures(pictures))
+      files.push_back(picture.path);
     const std::vector<CameraPosition> positions = read_positions(options.positions, files);
     LightField light_field;
     for (std::size_t i = 0; i < files.size(); ++i) {

@@ -4,7 +4,6 @@
 #include <system_error>
 
 #include "readers.h"
-#include "text.h"
 
 namespace gigaray {
 namespace {
@@ -33,11 +32,6 @@ bool is_llff(const fs::path& input) {
   return input.filename() == "poses_bounds.npy" || is_there(input / "poses_bounds.npy");
 }
 
-bool is_hdf5(const fs::path& input) {
-  const std::string extension = lower(input.extension().string());
-  return extension == ".h5" || extension == ".hdf5" || is_there(input / "lf.h5");
-}
-
 class LaterFormat : public Reader {
  public:
   LaterFormat(std::string name, std::function<bool(const fs::path&)> fits)
@@ -62,7 +56,6 @@ std::vector<std::unique_ptr<const Reader>> later_formats() {
   formats.push_back(std::make_unique<LaterFormat>("a COLMAP workspace", is_colmap));
   formats.push_back(std::make_unique<LaterFormat>("transforms.json", is_transforms_json));
   formats.push_back(std::make_unique<LaterFormat>("LLFF poses_bounds.npy", is_llff));
-  formats.push_back(std::make_unique<LaterFormat>("an HDF5 light field", is_hdf5));
   return formats;
 }
 

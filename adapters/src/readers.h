@@ -10,7 +10,10 @@ namespace gigaray {
 
 std::unique_ptr<const Reader> gigaray_json_reader();
 std::unique_ptr<const Reader> hci_reader();
+std::unique_ptr<const Reader> hdf5_reader();
 std::unique_ptr<const Reader> stanford_reader();
+std::unique_ptr<const Reader> lenslet_reader();
+std::unique_ptr<const Reader> named_grid_reader();
 std::unique_ptr<const Reader> image_sequence_reader();
 
 /// Recognises the formats that this version can't read and says so.

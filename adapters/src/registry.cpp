@@ -4,6 +4,7 @@
 
 #include <system_error>
 
+#include "picture_files.h"
 #include "readers.h"
 
 namespace gigaray {
@@ -15,14 +16,28 @@ std::vector<std::unique_ptr<const Reader>> all_readers() {
   std::vector<std::unique_ptr<const Reader>> all;
   all.push_back(gigaray_json_reader());
   all.push_back(hci_reader());
+  all.push_back(hdf5_reader());
   all.push_back(stanford_reader());
+  all.push_back(lenslet_reader());
   for (auto& reader : later_formats()) all.push_back(std::move(reader));
+  all.push_back(named_grid_reader());
   all.push_back(image_sequence_reader());
   return all;
 }
 
+// --lenslet makes any single picture a lenslet picture, and goes with nothing else.
+const Reader& lenslet_reader_for(const fs::path& input) {
+  std::error_code ignored;
+  if (!fs::is_regular_file(input, ignored) || !is_picture_name(input))
+    throw Error(ErrorCode::kInvalidArgument,
+                "--lenslet: " + input.string() + " is not one picture; leave the option out");
+  static const std::unique_ptr<const Reader> reader = lenslet_reader();
+  return *reader;
+}
+
 // The reader for the input. A positions file makes any folder of pictures an image sequence.
 const Reader& reader_for(const fs::path& input, const OpenOptions& options) {
+  if (options.lenslet.columns > 0) return lenslet_reader_for(input);
   const Reader* best = nullptr;
   int best_score = 0;
   std::string why_not;

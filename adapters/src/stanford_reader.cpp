@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Gigaray authors
 // (New) Stanford Light Field Archive, http://lightfield.stanford.edu: out_ROW_COL_Y_X with the
-// measured position of the camera; other words before ROW and after X are allowed. X grows to the
-// right and Y downwards as the pictures show it (found on Lego Knights, where the columns run to
-// the left and the rows upwards).
+// measured position of the camera; other words before ROW and after X are allowed. That X grows to
+// the right and Y downwards as the pictures show it is found on Lego Knights and an assumption for
+// others: their axes differ.
 #include <cmath>
 #include <regex>
 #include <set>
@@ -55,9 +55,7 @@ class StanfordReader : public Reader {
   }
 
   LightField open(const fs::path& input, const OpenOptions& options) const override {
-    if (options.direction != Travel::kAuto)
-      throw Error(ErrorCode::kInvalidArgument,
-                  "--direction: the names of a Stanford archive state positions; leave it out");
+    const Directions directions = Directions::of_grid(options, Travel::kRight, Travel::kDown);
     const std::vector<Camera> cameras = cameras_of(input);
     std::set<int> rows, columns;
     for (const Camera& camera : cameras) {
@@ -73,7 +71,7 @@ class StanfordReader : public Reader {
     for (const Camera& camera : cameras) {
       View view;
       view.name = camera.path.stem().string();
-      place_camera(view, one_column ? 0 : camera.x, one_row ? 0 : camera.y);
+      directions.place(view, one_column ? 0 : camera.x, one_row ? 0 : camera.y);
       light_field.views.push_back(view);
       files.push_back(camera.path);
       const double across = one_row ? camera.y : camera.x;
@@ -90,7 +88,7 @@ class StanfordReader : public Reader {
           hundredths((highest - lowest) / light_field.rig.baseline.value_or(1)) +
           " view steps across it is ignored");
     light_field.kind = kind_from_positions(light_field.views);
-    light_field.sign_is_assumed = true;
+    light_field.sign_is_assumed = !directions.stated();
     return light_field;
   }
 };

@@ -104,7 +104,7 @@ TEST_F(Hci, ContradictionsAreNamed) {
   write("parameters.cfg", "num_cams_x = 0\n");
   expect_bad_input("num_cams_x");
   expect_error(ErrorCode::kInvalidArgument, "--direction", [&] {
-    open_light_field(folder, {"", Travel::kLeft});
+    open_light_field(folder, {"", Travel::kLeft, Travel::kDown});
   });
 }
 
@@ -147,6 +147,25 @@ TEST_F(Stanford, OneColumnIs4DWithoutWobble) {
   EXPECT_EQ(light_field.kind, LightFieldKind::k4D);
   EXPECT_DOUBLE_EQ(light_field.views[0].t, 1);
   EXPECT_EQ(light_field.views[0].s, light_field.views[1].s);
+}
+
+TEST_F(Stanford, StatedDirectionsTurnTheAxes) {
+  save("out_00_00_10.0_100.0.png");
+  save("out_00_01_10.0_110.0.png");
+  save("out_01_00_20.0_100.0.png");
+  const LightField up = open_light_field(folder, {"", Travel::kLeft, Travel::kUp});
+  EXPECT_FALSE(up.sign_is_assumed);
+  EXPECT_EQ(up.views[1].s, -0.5);
+  EXPECT_EQ(up.views[2].t, -0.5);
+  const LightField swapped = open_light_field(folder, {"", Travel::kDown, Travel::kRight});
+  EXPECT_EQ(swapped.views[1].t, 0.5);
+  EXPECT_EQ(swapped.views[1].s, -0.5);
+  expect_error(ErrorCode::kInvalidArgument, "right,down", [&] {
+    open_light_field(folder, {"", Travel::kLeft});
+  });
+  expect_error(ErrorCode::kInvalidArgument, "same line", [&] {
+    open_light_field(folder, {"", Travel::kLeft, Travel::kRight});
+  });
 }
 
 TEST_F(Stanford, OtherWordsInTheNameAreAllowed) {
@@ -245,7 +264,6 @@ TEST_F(Registry, FormatsOfLaterVersionsAreNamed) {
   expect_named("sparse/0/cameras.bin", "COLMAP");
   expect_named("transforms.json", "transforms.json");
   expect_named("poses_bounds.npy", "LLFF");
-  expect_named("lf.h5", "HDF5");
 }
 
 TEST_F(Registry, EveryReaderRefusesAnEmptyFolderAndAMissingOne) {

@@ -189,11 +189,30 @@ TEST_F(ImageSequence, UnclearNamesAreRefused) {
   expect_bad_input("more than one series");
 }
 
-TEST_F(ImageSequence, TwoChangingNumbersAreRefused) {
-  save("v1_1.png");
-  save("v1_2.png");
-  save("v2_1.png");
+TEST_F(ImageSequence, ChangingNumbersThatFormNoGridAreRefused) {
+  save("v1_1_1.png");
+  save("v1_2_1.png");
+  save("v2_1_2.png");
   expect_bad_input("more than one number");
+}
+
+TEST_F(ImageSequence, DatesWithTimesAreNoGrid) {
+  save("20260101_120001.png");
+  save("20260101_120013.png");
+  save("20260102_120020.png");
+  expect_bad_input("more than one number");
+}
+
+TEST_F(ImageSequence, AVerticalRailIsStated) {
+  save_numbered(1, 3);
+  const LightField down = open(Travel::kDown);
+  EXPECT_EQ(down.kind, LightFieldKind::k4D);
+  EXPECT_EQ(down.views[2].t, 1);
+  EXPECT_EQ(down.views[2].s, 0);
+  EXPECT_EQ(open(Travel::kUp).views[2].t, -1);
+  expect_error(ErrorCode::kInvalidArgument, "one way", [&] {
+    open_light_field(folder, {"", Travel::kLeft, Travel::kDown});
+  });
 }
 
 TEST_F(ImageSequence, SameNumberTwiceIsRefused) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Gigaray authors
 #include "gigaray/adapters/maps.h"
+#include "gigaray/adapters/depth_folder.h"
 
 #include <sys/resource.h>
 
@@ -41,6 +42,7 @@ class Npy : public Maps {};
 class Exr : public Maps {};
 class Png16 : public Maps {};
 class DepthPicture : public Maps {};
+class DepthOutput : public Maps {};
 
 TEST_F(Pfm, ReadsWhatItWrote) {
   FloatMap map = sample_map();
@@ -218,6 +220,26 @@ TEST_F(DepthPicture, NearIsRedFarIsBlueNothingIsBlack) {
   EXPECT_GT(near[2], near[0] + 50);
   EXPECT_GT(far[0], far[2] + 50);
   EXPECT_EQ(seen.at<cv::Vec3b>(0, 2), cv::Vec3b(0, 0, 0));
+}
+
+TEST_F(DepthOutput, MetricDepthIsThereWhenTheRigIsKnown) {
+  const FloatMap disparity(5, 3, 1, 2.5f), confidence(5, 3, 1, 1);
+  for (const bool known : {false, true}) {
+    RigGeometry rig;
+    rig.focal_px = 1000;
+    if (known) rig.baseline = 0.025;
+    rig.focus_distance = 5;
+    const std::filesystem::path target = folder / (known ? "known" : "unknown");
+    DepthFolder out(target, {});
+    out.set_rig(rig);
+    out.write_view("a", disparity, confidence, true);
+    out.commit("{}");
+    EXPECT_EQ(exists(target / "depth.pfm"), known);
+    EXPECT_EQ(exists(target / "a" / "depth.pfm"), known);
+    if (known) {
+      EXPECT_FLOAT_EQ(read_pfm(target / "depth.pfm")(4, 2), 25 / 7.5f);
+    }
+  }
 }
 
 }  // namespace

@@ -52,7 +52,7 @@ TEST_F(Frame, WrongUsageEndsWithTwo) {
   expect_failure("nonsense", 2, "nonsense", "gigaray --help");
   expect_failure("info", 2, "gigaray info:", "INPUT");
   expect_failure("info . --nonsense", 2, "--nonsense", "gigaray info --help");
-  expect_failure("info . --direction up", 2, "--direction", "up");
+  expect_failure("info . --direction sideways", 2, "--direction", "sideways");
 }
 
 TEST_F(Frame, ResultThatCannotBePrintedIsAFailure) {
@@ -104,6 +104,15 @@ TEST_F(Info, DrawsTheGrid) {
   const Result result = run("info .");
   EXPECT_NE(result.out.find(" . . . . x . . . .\n"), std::string::npos) << result.out;
   EXPECT_NE(result.out.find(" x x . . O . . . x\n"), std::string::npos) << result.out;
+}
+
+TEST_F(Info, DrawsMeasuredPositionsAndHoles) {
+  for (const std::string place : {"0_0_0.4_0.1", "0_1_-0.3_10.2", "0_2_0.2_19.7", "1_0_10.1_-0.4",
+                                  "1_2_10.3_20.1", "2_0_19.8_0.2", "2_1_20.2_9.9", "2_2_20.0_20.3"})
+    save("out_" + place + ".png");
+  const Result result = run("info .");
+  EXPECT_NE(result.out.find(" x . "), std::string::npos) << result.out;  // the hole
+  EXPECT_NE(result.out.find("Stanford archive, 4D"), std::string::npos) << result.out;
 }
 
 TEST_F(Info, JsonHoldsTheViews) {

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 #include "gigaray/samplers/any_sampler.h"
 #include "reference/density_score.h"
@@ -68,6 +67,7 @@ ScoreOptions colour_score(float bandwidth) {
 }
 
 struct PixelMatch {
+  int u = 0, v = 0;  // px of the small pictures
   float disparity = 0;
   float score = 0;
   float lead = 0;  ///< over the best hypothesis elsewhere
@@ -137,7 +137,7 @@ std::vector<PixelMatch> match_edges(const Band& band, const S& level0_sampler, b
     float elsewhere = 0;
     for (int i = 0; i < range.count; ++i)
       if (std::abs(i - best) > 6) elsewhere = std::max(elsewhere, scores[i]);
-    matches.push_back({float(range.value(best)), scores[best], scores[best] - elsewhere});
+    matches.push_back({pixel.u, pixel.v, float(range.value(best)), scores[best], scores[best] - elsewhere});
   }
   return matches;
 }
@@ -161,10 +161,15 @@ RangeEstimate estimate_disparity_range(const LightField& light_field, const RunC
       make_sampler(views));
 
   RangeEstimate estimate;
+  estimate.pixel_size = 1 << band.shape.level;
+  estimate.radius = radius;
   std::vector<float> reliable;
   for (const PixelMatch& match : matches) {
     estimate.agreement += match.score / double(matches.size());
-    if (match.score > kReliableScore && match.lead > kReliableLead) reliable.push_back(match.disparity);
+    if (match.score <= kReliableScore || match.lead <= kReliableLead) continue;
+    reliable.push_back(match.disparity);
+    estimate.matches.push_back(
+        {match.u << band.shape.level, match.v << band.shape.level, match.disparity});
   }
   constexpr std::size_t kLeast = 30;
   if (reliable.size() < kLeast)
@@ -182,45 +187,6 @@ RangeEstimate estimate_disparity_range(const LightField& light_field, const RunC
   for (const float d : reliable)
     estimate.negative_share += (d < 0) / double(reliable.size());
   return estimate;
-}
-
-std::optional<DisparityRange> check_direction(LightField& light_field, const RunControl& control) {
-  if (!light_field.sign_is_assumed) return std::nullopt;
-  RangeEstimate best = estimate_disparity_range(light_field, control);
-  if (light_field.kind == LightFieldKind::k4D) {
-    LightField mirrored = light_field;
-    for (View& view : mirrored.views) view.t = 0 - view.t;
-    try {
-      const RangeEstimate other = estimate_disparity_range(mirrored, control);
-      if (other.agreement > best.agreement) {
-        std::ostringstream text;
-        text << "the t axis was turned around: views agree better so (" << other.agreement
-             << " against " << best.agreement << ")";
-        control.message(text.str());
-        light_field = mirrored;
-        best = other;
-      }
-    } catch (const Error& error) {
-      if (error.code() == ErrorCode::kCancelled) throw;  // else: nothing matches, not this order
-    }
-  }
-  light_field.sign_is_assumed = false;
-  // Parallel cameras see positive disparities only; a few wrong matches are to be expected.
-  constexpr double kContradicted = 0.9;
-  if (best.negative_share < kContradicted) {
-    if (best.negative_share > 1 - kContradicted)
-      control.message("disparities of both signs: the direction of travel is taken as assumed");
-    return best.range;
-  }
-  for (View& view : light_field.views) {
-    view.s = 0 - view.s;  // never -0
-    view.t = 0 - view.t;
-  }
-  best.range = {-best.range.max, -best.range.min};
-  control.message(
-      "the camera moves the other way than assumed: the s axis was turned around, so that positive "
-      "disparity is nearer");
-  return best.range;
 }
 
 NoiseEstimate estimate_noise(const LightField& light_field, const HypothesisRange& hypotheses,

@@ -8,11 +8,20 @@
 
 namespace gigaray {
 
-/// Which way the camera of an image sequence moves as the numbers of the pictures rise.
+/// Which way a camera goes as a number of the input rises, as the pictures show it: when it goes
+/// right, near things move to the left of the picture.
 enum class Travel {
-  kAuto,   ///< Right is assumed; LightField::sign_is_assumed tells the caller to check it.
-  kRight,  ///< Stated: near things move to the left of the picture.
-  kLeft,   ///< Stated: near things move to the right.
+  kAuto,  ///< As the format has it, else assumed: LightField::sign_is_assumed asks for a check.
+  kRight,
+  kLeft,
+  kDown,
+  kUp,
+};
+
+/// Sub-aperture views behind one lens: pixels of the lenslet picture per view axis.
+struct LensletGrid {
+  int columns = 0;  ///< 0: from the name of the file
+  int rows = 0;
 };
 
 /// What the pictures alone don't say.
@@ -20,8 +29,13 @@ struct OpenOptions {
   /// Text file with the position of every picture of a folder: `right`, `right down` or
   /// `name right down` per line, any unit (docs/formats.md). Empty: from the input itself.
   std::filesystem::path positions;
-  /// Only for an image sequence without a positions file.
+  /// Way of the camera as the number of a series rises, or as the column (or x) of a grid rises.
+  /// Not for formats that state positions.
   Travel direction = Travel::kAuto;
+  /// Grids: way of the camera as the row (or y) rises. Stated together with `direction`.
+  Travel row_direction = Travel::kAuto;
+  /// Only for a lenslet picture.
+  LensletGrid lenslet = {};
 };
 
 /// Recognises what `input` is (registry.h) and opens it. Reads the headers of the pictures, not

@@ -68,8 +68,10 @@ struct LightField {
   std::shared_ptr<const PixelSource> pixels;
   std::string format;              ///< What the adapter recognised, e.g. "image sequence".
   std::vector<std::string> notes;  ///< What the adapter assumed; one line each, for the user.
-  /// The sign of s (and t) is an assumption that photo-consistency should check.
+  /// Which way the camera goes as s and as t rise is an assumption that photo-consistency should check.
   bool sign_is_assumed = false;
+  /// Views of the input that the adapter left out, with their places; the reason is in the notes.
+  std::vector<View> left_out;
 
   int num_views() const { return int(views.size()); }
 };

@@ -2,7 +2,7 @@
 // Copyright (c) 2026 The Gigaray authors
 #pragma once
 
-#include <optional>
+#include <vector>
 
 #include "gigaray/depth_options.h"
 #include "gigaray/light_field.h"
@@ -17,17 +17,20 @@ struct RangeEstimate {
   double negative_share = 0;  ///< Share of reliable pixels with a disparity below zero.
   long samples = 0;           ///< Reliable pixels.
   double agreement = 0;       ///< Mean score of all pixels at their best hypothesis, 0 … 1.
+  /// A reliable pixel of the centre view: level-0 px, of the first of pixel_size px per axis.
+  struct Match {
+    int u = 0;
+    int v = 0;
+    float disparity = 0;
+  };
+  std::vector<Match> matches;
+  int pixel_size = 1;  ///< Level-0 px per pixel of the small pictures.
+  double radius = 0;   ///< View steps from the centre to the farthest view that was looked at.
 };
 
 /// Finds the range by a coarse search on a small version of the pictures around the centre view.
 /// Throws Error(kBadInput) when nothing can be matched; --disparity is the way out then.
 RangeEstimate estimate_disparity_range(const LightField& light_field, const RunControl& control);
-
-/// When the adapter only assumed the signs of the axes, checks them against the pictures and corrects
-/// them, saying so through control.message. 4D: of (s, t) and (s, −t) the one under which views agree
-/// better. Then, when nearly all disparities are negative, which parallel cameras can't see, both axes
-/// are turned around. Returns the range that it had to estimate for that, if any.
-std::optional<DisparityRange> check_direction(LightField& light_field, const RunControl& control);
 
 /// Noise of a light field, from how well views agree at their best hypothesis.
 struct NoiseEstimate {

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Gigaray authors
+#include "view_grid.h"
+
+#include <numeric>
+#include <string>
+#include <utility>
+
+namespace gigaray {
+namespace {
+
+/// Share of the middle view's mean encoded value that a view needs.
+constexpr double kBrightEnough = 0.7;
+
+std::string two_digits(int number) {
+  const std::string text = std::to_string(number);
+  return text.size() < 2 ? "0" + text : text;
+}
+
+double mean_value(const Image<std::uint16_t>& picture) {
+  return std::accumulate(picture.begin(), picture.end(), 0.0) / double(picture.size());
+}
+
+}  // namespace
+
+std::vector<View> grid_views(int rows, int columns, const Directions& directions, double row_step) {
+  std::vector<View> views;
+  for (int row = 0; row < rows; ++row)
+    for (int column = 0; column < columns; ++column) {
+      View view;
+      view.name = "view_" + two_digits(row) + "_" + two_digits(column);
+      directions.place(view, column - (columns - 1) / 2.0, row_step * (row - (rows - 1) / 2.0));
+      views.push_back(view);
+    }
+  return views;
+}
+
+void assume_directions(LightField& light_field, const Directions& directions) {
+  if (directions.stated()) return;
+  light_field.sign_is_assumed = true;
+  light_field.notes.push_back(
+      "columns of views are assumed to go right and rows down (--direction states it)");
+}
+
+void attach_bright_views(LightField& light_field, std::vector<Image<std::uint16_t>> pictures,
+                         int bit_depth) {
+  GIGARAY_CHECK(pictures.size() == light_field.views.size() && !pictures.empty());
+  const double middle = mean_value(pictures[centre_view(light_field)]);
+  if (middle == 0) throw Error(ErrorCode::kBadInput, "the view in the middle is black");
+  light_field.width = pictures.front().width();
+  light_field.height = pictures.front().height();
+  std::vector<View> bright;
+  std::vector<Image<std::uint16_t>> kept;
+  for (std::size_t i = 0; i < pictures.size(); ++i) {
+    const bool dark = mean_value(pictures[i]) < kBrightEnough * middle;
+    (dark ? light_field.left_out : bright).push_back(light_field.views[i]);
+    if (!dark) kept.push_back(std::move(pictures[i]));
+  }
+  light_field.views = std::move(bright);
+  if (!light_field.left_out.empty())
+    light_field.notes.push_back(std::to_string(light_field.left_out.size()) + " of " +
+                                std::to_string(pictures.size()) +
+                                " views are left out: they are darker than 70 % of the middle one");
+  light_field.pixels = pixels_in_memory(std::move(kept), bit_depth);
+}
+
+}  // namespace gigaray

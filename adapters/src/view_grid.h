@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Gigaray authors
+#pragma once
+
+#include <vector>
+
+#include "camera_position.h"
+#include "gigaray/image.h"
+#include "gigaray/light_field.h"
+
+namespace gigaray {
+
+/// Views of a complete grid, row by row, named view_RR_CC. The middle of the grid is the origin;
+/// a column is one view step, a row is row_step of them.
+std::vector<View> grid_views(int rows, int columns, const Directions& directions,
+                             double row_step = 1);
+
+/// Says that the directions of a grid without a stated one are assumed.
+void assume_directions(LightField& light_field, const Directions& directions);
+
+/// Makes a light field of these pictures, one per view, without those that are much darker than the
+/// view in the middle: the rim of the lens hides the scene from them. They go to
+/// LightField::left_out, with a note. Throws Error(kBadInput) when all are black.
+void attach_bright_views(LightField& light_field, std::vector<Image<std::uint16_t>> pictures,
+                         int bit_depth);
+
+}  // namespace gigaray

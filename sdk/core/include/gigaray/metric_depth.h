@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Gigaray authors
+#pragma once
+
+#include "gigaray/image.h"
+#include "gigaray/light_field.h"
+
+namespace gigaray {
+
+/// Is enough known about the rig for depth in scene units: focal length and baseline? Without a
+/// focus distance disparity 0 is at infinity.
+bool has_metric_depth(const RigGeometry& rig);
+
+/// Distance from the camera plane along the optical axis, scene units (RigGeometry::unit), from
+/// disparity in level-0 px per view step: z = f · B / (d + f · B / F). NaN where there is no
+/// estimate, and where the disparity is that of infinity or beyond. Example: f = 1000 px, B = 0.025
+/// m, F = 5 m: d = 0 is at 5 m, d = 5 at 2.5 m. The rig must have metric depth.
+FloatMap depth_from_disparity(const FloatMap& disparity, const RigGeometry& rig);
+
+}  // namespace gigaray

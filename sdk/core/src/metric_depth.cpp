@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Gigaray authors
+#include "gigaray/metric_depth.h"
+
+namespace gigaray {
+
+bool has_metric_depth(const RigGeometry& rig) { return rig.focal_px && rig.baseline; }
+
+FloatMap depth_from_disparity(const FloatMap& disparity, const RigGeometry& rig) {
+  GIGARAY_CHECK(has_metric_depth(rig));
+  const double scale = *rig.focal_px * *rig.baseline;
+  const double infinity =
+      rig.focus_distance ? scale / *rig.focus_distance : 0;  // its disparity, −d
+  FloatMap depth = disparity;
+  for (float& value : depth)
+    value = value + infinity > 0 ? float(scale / (value + infinity)) : kNoEstimate;
+  return depth;
+}
+
+}  // namespace gigaray
