@@ -2,15 +2,21 @@
 // Copyright (c) 2026 The Gigaray authors
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
-#include <initializer_list>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "command.h"
+#include "error_map.h"
+#include "evaluate_report.h"
+#include "evaluate_scene.h"
+#include "evaluate_scores.h"
+#include "gigaray/adapters/atomic_output.h"
 #include "gigaray/adapters/maps.h"
-#include "gigaray/metrics.h"
+#include "gigaray/adapters/pictures.h"
 
 namespace gigaray::cli {
 namespace {
@@ -18,79 +24,144 @@ namespace {
 namespace fs = std::filesystem;
 
 struct EvaluateOptions {
-  fs::path estimate, truth;
-  int border = 15;
+  std::vector<fs::path> maps;  ///< The last one is the truth.
+  std::string views = "centre";
+  std::vector<std::string> metrics{"hci"};
+  std::vector<std::string> masks;
+  ScoreChoice choice;
   bool json = false;
+  std::string csv;
+  fs::path error_map;
+  double error_range = 0.2;
 };
 
-/// The path itself, or the first of `names` that the folder has.
-fs::path find_map(const fs::path& path, std::initializer_list<const char*> names) {
-  std::error_code ignored;
-  if (!fs::exists(path, ignored))
-    throw Error(ErrorCode::kBadInput, path.string() + ": no such file or folder");
-  if (!fs::is_directory(path, ignored)) return path;
-  std::string wanted;
-  for (const char* name : names) {
-    if (fs::exists(path / name, ignored)) return path / name;
-    wanted += (wanted.empty() ? "" : " and no ") + std::string(name);
+/// The last part of every path without a map's extension, or the whole paths where that would not
+/// tell them apart.
+std::vector<std::string> labels_of(const std::vector<fs::path>& paths) {
+  std::vector<std::string> labels;
+  for (const fs::path& path : paths) {
+    fs::path name = (path.has_filename() ? path : path.parent_path()).filename();
+    for (const char* extension : {".pfm", ".npy", ".exr"})
+      if (name.extension() == extension) name = name.stem();
+    labels.push_back(name.string());
   }
-  throw Error(ErrorCode::kBadInput,
-              path.string() + ": the folder has no " + wanted + "; name a disparity map");
+  std::vector<std::string> sorted = labels;
+  std::sort(sorted.begin(), sorted.end());
+  if (std::adjacent_find(sorted.begin(), sorted.end()) == sorted.end()) return labels;
+  std::transform(paths.begin(), paths.end(), labels.begin(),
+                 [](const fs::path& path) { return path.string(); });
+  return labels;
 }
 
-void print_json(const DisparityScores& scores) {
-  // NaN becomes null.
-  const nlohmann::ordered_json root = {
-      {"BadPix0.07", scores.bad_pix_007}, {"BadPix0.03", scores.bad_pix_003},
-      {"BadPix0.01", scores.bad_pix_001}, {"MSEx100", scores.mse_x100},
-      {"Q25", scores.q25_x100},           {"filled", scores.filled},
-      {"scored", scores.scored}};
-  fmt::print("{}\n", root.dump());
+/// FILE.png, or FILE-ESTIMATE-VIEW.png where there are several.
+fs::path error_map_path(const fs::path& path, const std::string& estimate,
+                        const std::string& view) {
+  std::string name = path.stem().string();
+  for (const std::string& part : {estimate, view})
+    if (!part.empty()) name += "-" + part;
+  std::replace(name.begin(), name.end(), '/', '_');
+  return path.parent_path() / (name + ".png");
 }
 
-void print_text(const DisparityScores& scores) {
-  const auto line = [](const char* name, double value, const char* meaning) {
-    fmt::print("{:<12}{:>9.3f}  {}\n", name, value, meaning);
+void check(const EvaluateOptions& options) {
+  const auto refuse = [](const std::string& text) {
+    throw Error(ErrorCode::kInvalidArgument, text);
   };
-  line("BadPix0.07", scores.bad_pix_007, "% of pixels with an error above 0.07");
-  line("BadPix0.03", scores.bad_pix_003, "% above 0.03");
-  line("BadPix0.01", scores.bad_pix_001, "% above 0.01");
-  line("MSEx100", scores.mse_x100, "mean squared error x 100");
-  line("Q25", scores.q25_x100, "25th percentile of the error x 100");
-  line("filled", scores.filled, fmt::format("% of {} pixels scored", scores.scored).c_str());
+  if (options.maps.size() < 2) refuse("TRUTH is missing; write ESTIMATE [ESTIMATE ...] TRUTH");
+  if (!options.masks.empty() && options.views != "centre")
+    refuse("--mask is for one view; leave --views out");
+  if (!(options.error_range > 0 && std::isfinite(options.error_range)))
+    refuse(fmt::format("--error-range is {}; it must be above 0", options.error_range));
+  if (!options.error_map.empty() && options.error_map.extension() != ".png")
+    refuse("--error-map is '" + options.error_map.string() + "'; it must end in .png");
+  if (options.json && options.csv == "-") refuse("--json and --csv - both print; leave one out");
 }
 
-void evaluate(const EvaluateOptions& options) {
-  const fs::path estimate = find_map(options.estimate, {"disparity.pfm"});
-  const fs::path truth = find_map(options.truth, {"truth.pfm", "gt_disp_lowres.pfm"});
-  const FloatMap estimate_map = read_float_map(estimate), truth_map = read_float_map(truth);
-  DisparityScores scores;
-  try {
-    scores = score_disparity(estimate_map, truth_map, options.border);
-  } catch (const Error& error) {
-    throw Error(error.code(),
-                estimate.string() + " against " + truth.string() + ": " + error.what());
+std::vector<ScoreRow> score(const EvaluateOptions& options, const RunControl& control) {
+  const std::vector<fs::path> estimates(options.maps.begin(), options.maps.end() - 1);
+  const fs::path& truth_path = options.maps.back();
+  const std::vector<std::string> labels = labels_of(estimates);
+  const auto views = find_view_maps(estimates, truth_path, options.views, control);
+  const bool is_one_map = views.size() == 1 && estimates.size() == 1;
+  std::vector<ScoreRow> rows;
+  for (const ViewMaps& maps : views) {
+    control.throw_if_cancelled();
+    const FloatMap truth = read_float_map(maps.truth);
+    SceneParts scene;
+    // The masks of a scene are those of its centre view.
+    if (maps.view.empty())
+      scene = read_scene_parts(truth_path, options.masks, truth.width(), truth.height());
+    for (std::size_t i = 0; i < estimates.size(); ++i) {
+      const FloatMap estimate = read_float_map(maps.estimates[i]);
+      try {
+        rows.push_back({labels[i], maps.view, scores_of(estimate, truth, scene, options.choice)});
+      } catch (const Error& error) {
+        throw Error(error.code(), maps.estimates[i].string() + " against " + maps.truth.string() +
+                                      ": " + error.what());
+      }
+      if (options.error_map.empty()) continue;
+      const fs::path path =
+          is_one_map ? options.error_map : error_map_path(options.error_map, labels[i], maps.view);
+      write_png(path,
+                draw_error_map(estimate, truth, options.choice.hci_border(), options.error_range),
+                8);
+    }
   }
-  if (options.json)
-    print_json(scores);
+  return rows;
+}
+
+void evaluate(EvaluateOptions options, const RunControl& control) {
+  const auto wants = [&](const char* name) {
+    return std::find(options.metrics.begin(), options.metrics.end(), name) != options.metrics.end();
+  };
+  options.choice.hci = wants("hci");
+  options.choice.middlebury = wants("middlebury");
+  check(options);
+  const std::vector<ScoreRow> rows = score(options, control);
+  if (options.csv == "-")
+    fmt::print("{}", scores_as_csv(rows));
+  else if (options.json)
+    fmt::print("{}", scores_as_json(rows));
   else
-    print_text(scores);
+    fmt::print("{}", scores_as_text(rows));
+  if (!options.csv.empty() && options.csv != "-")
+    write_file_atomically(options.csv, scores_as_csv(rows));
 }
 
 }  // namespace
 
 Run evaluate_command(CLI::App& app) {
-  app.description("Score a disparity map against the truth with the HCI general metrics");
+  app.description("Score disparity maps against the truth: HCI and Middlebury metrics");
   auto options = std::make_shared<EvaluateOptions>();
-  app.add_option("ESTIMATE", options->estimate, "Disparity map, or a folder of gigaray depth")
+  app.add_option("ESTIMATE", options->maps,
+                 "Disparity maps or folders of gigaray depth, several for a table; the last "
+                 "argument is TRUTH: a map, or a folder with truth.pfm or gt_disp_lowres.pfm")
+      ->type_name("... TRUTH")
       ->required();
-  app.add_option("TRUTH", options->truth,
-                 "Disparity map, or a folder with truth.pfm or gt_disp_lowres.pfm")
-      ->required();
-  app.add_option("--border", options->border, "Pixels left out on each side")
+  app.add_option("--views", options->views,
+                 "centre, all, or a list of names: each against truth/VIEW.pfm of the TRUTH folder")
       ->capture_default_str();
+  app.add_option("--metrics", options->metrics, "hci, middlebury or both")
+      ->check(CLI::IsMember({"hci", "middlebury"}))
+      ->delimiter(',')
+      ->capture_default_str();
+  app.add_option("--mask", options->masks,
+                 "Scores of a part too: where FILE, a picture or float map, isn't zero; masks of "
+                 "an HCI scene are found in its folder")
+      ->type_name("NAME=FILE")
+      ->allow_extra_args(false);
+  app.add_option("--border", options->choice.border,
+                 "Pixels left out on each side [15 for hci, 0 for middlebury]");
   app.add_flag("--json", options->json, "Print JSON");
-  return [options](const RunControl&) { evaluate(*options); };
+  app.add_option("--csv", options->csv, "Write a CSV table, a line per map; - prints it")
+      ->type_name("FILE|-");
+  app.add_option("--error-map", options->error_map,
+                 "Write the signed error as a picture: red too far, blue too near, black missing; "
+                 "several get the name of estimate and view")
+      ->type_name("FILE.png");
+  app.add_option("--error-range", options->error_range, "Error in px with the full colour")
+      ->capture_default_str();
+  return [options](const RunControl& control) { evaluate(*options, control); };
 }
 
 }  // namespace gigaray::cli

@@ -11,7 +11,7 @@
 #include "gigaray/adapters/reader.h"
 #include "gigaray/metrics.h"
 #include "gigaray/reconstruct.h"
-#include "gigaray/scene_estimates.h"
+#include "gigaray/camera_order.h"
 
 int main(int argc, char** argv) {
   if (argc != 3) {

@@ -79,6 +79,55 @@ TEST(Metrics, NoEstimateAtAllHasNoMean) {
   EXPECT_TRUE(std::isnan(scores.q25_x100));
 }
 
+TEST(Middlebury, GoldenScoresOfElevenErrors) {
+  // Errors 0, 0.5, 1 ... 5 in steps of 0.5, of both signs.
+  FloatMap estimate(11, 1), truth(11, 1, 1, 10.0f);
+  for (int u = 0; u < 11; ++u) estimate(u, 0) = 10 + (u % 2 ? 0.5f : -0.5f) * float(u);
+  const MiddleburyScores scores = score_middlebury(estimate, truth);
+  EXPECT_EQ(scores.scored, 11);
+  EXPECT_DOUBLE_EQ(scores.bad_05, 100 * 9 / 11.0) << "an error of exactly 0.5 is not bad";
+  EXPECT_DOUBLE_EQ(scores.bad_10, 100 * 8 / 11.0);
+  EXPECT_DOUBLE_EQ(scores.bad_20, 100 * 6 / 11.0);
+  EXPECT_DOUBLE_EQ(scores.bad_40, 100 * 2 / 11.0);
+  EXPECT_DOUBLE_EQ(scores.average_error, 2.5);
+  EXPECT_DOUBLE_EQ(scores.rms, std::sqrt(385 * 0.25 / 11));
+  EXPECT_DOUBLE_EQ(scores.a50, 2.5);
+  EXPECT_DOUBLE_EQ(scores.a90, 4.5);
+  EXPECT_DOUBLE_EQ(scores.a95, 4.75);
+  EXPECT_NEAR(scores.a99, 4.95, 1e-12);
+  EXPECT_EQ(scores.filled, 100);
+}
+
+TEST(Middlebury, UnknownTruthIsNotScoredAndMissingEstimatesAreBad) {
+  const FloatMap estimate = row_of({1, kNaN, 3, 9, kInfinity});
+  const FloatMap truth = row_of({1, 2, kInfinity, kNaN, 1});
+  const MiddleburyScores scores = score_middlebury(estimate, truth);
+  EXPECT_EQ(scores.scored, 3);
+  EXPECT_DOUBLE_EQ(scores.filled, 100 / 3.0);
+  EXPECT_DOUBLE_EQ(scores.bad_40, 200 / 3.0);
+  EXPECT_EQ(scores.average_error, 0);
+  EXPECT_EQ(scores.a99, 0);
+}
+
+TEST(Middlebury, OnlyTheMaskIsScored) {
+  Mask mask(3, 1);
+  mask(1, 0) = 1;
+  const MiddleburyScores scores =
+      score_middlebury(row_of({9, 3, 9}), FloatMap(3, 1, 1, 0.0f), 0, mask);
+  EXPECT_EQ(scores.scored, 1);
+  EXPECT_EQ(scores.bad_20, 100);
+  EXPECT_EQ(scores.bad_40, 0);
+  EXPECT_EQ(scores.rms, 3);
+}
+
+TEST(Middlebury, NoEstimateAtAllHasNoMean) {
+  const MiddleburyScores scores =
+      score_middlebury(FloatMap(3, 3, 1, kNaN), FloatMap(3, 3, 1, 0.0f));
+  EXPECT_EQ(scores.bad_05, 100);
+  EXPECT_TRUE(std::isnan(scores.average_error) && std::isnan(scores.rms) &&
+              std::isnan(scores.a50) && std::isnan(scores.a99));
+}
+
 TEST(Metrics, WhatCannotBeScoredIsAnError) {
   const FloatMap map(7, 5);
   EXPECT_THROW(score_disparity(FloatMap(5, 7), map, 0), Error);

@@ -218,6 +218,63 @@ TEST(Synthetic, AnUntexturedWallIsFlat) {
     for (int c = 0; c < 3; ++c) EXPECT_EQ(image(u, 1, c), image(20, 1, c));
 }
 
+TEST(Synthetic, TheLeftPlasterWallIsFlatAndTheRightOneAlmost) {
+  SyntheticOptions options = small("plaster");
+  options.width = 201;
+  options.height = 151;
+  const SyntheticLightField field = render(options);
+  const auto image = picture(field, 2);
+  const FloatMap& truth = field.disparity[2];
+  int low = 255, high = 0;
+  for (int u = 2; u < 60; ++u) {
+    for (int c = 0; c < 3; ++c) EXPECT_EQ(image(u, 10, c), image(2, 10, c));
+    EXPECT_GT(truth(u, 10), truth(u + 1, 10)) << "it slopes";
+    low = std::min<int>(low, image(200 - u, 10, 1));
+    high = std::max<int>(high, image(200 - u, 10, 1));
+  }
+  EXPECT_GE(high - low, 1);
+  EXPECT_LE(high - low, 4);
+}
+
+TEST(Synthetic, SilhouettesDifferInDisparityAndNotInTone) {
+  SyntheticOptions options = small("silhouettes");
+  options.width = 201;
+  options.height = 151;
+  const SyntheticLightField field = render(options);
+  const auto image = picture(field, 2);
+  const FloatMap& truth = field.disparity[2];
+  double tone[2] = {0, 0}, count[2] = {0, 0};
+  for (int v = 0; v < options.height; ++v) {
+    for (int u = 0; u < options.width; ++u) {
+      const bool is_near = truth(u, v) > options.disparity.min + 0.2;
+      tone[is_near] += image(u, v, 1);
+      ++count[is_near];
+    }
+  }
+  EXPECT_GT(count[1], 0.2 * count[0]);
+  EXPECT_NEAR(tone[1] / count[1], tone[0] / count[0], 5) << "of 255";
+}
+
+TEST(Synthetic, WedgesHaveOneDisparityAndTipsBelowAPixel) {
+  SyntheticOptions options = small("wedges");
+  options.width = 201;
+  options.height = 151;
+  const SyntheticLightField field = render(options);
+  const FloatMap& truth = field.disparity[2];
+  // Width of the nearest wedge, the first that hangs from the upper rim, by row.
+  const auto width_in_row = [&](int v) {
+    int width = 0;
+    for (int u = 0; u < options.width; ++u)
+      width += std::abs(truth(u, v) - options.disparity.max) < kRounding;
+    return width;
+  };
+  EXPECT_GE(width_in_row(0), 10);
+  for (int v = 1; v < options.height; ++v) EXPECT_LE(width_in_row(v), width_in_row(v - 1) + 1);
+  const int tip = int(0.86 * options.height);
+  EXPECT_LE(width_in_row(tip - 3), 1);
+  EXPECT_EQ(width_in_row(tip + 1), 0);
+}
+
 TEST(Synthetic, NoiseHasTheStatedDeviation) {
   SyntheticOptions options = small("wall");
   options.bit_depth = 16;

@@ -159,8 +159,8 @@ void SyntheticOptions::check() const {
 }
 
 const std::vector<std::string>& synthetic_scene_names() {
-  static const std::vector<std::string> names = {"planes", "rods",     "sphere",
-                                                 "wall",   "specular", "garden"};
+  static const std::vector<std::string> names = {
+      "planes", "rods", "sphere", "wall", "specular", "plaster", "silhouettes", "wedges", "garden"};
   return names;
 }
 

@@ -107,6 +107,15 @@ void SceneBuilder::disc(Place place, double half_x, double half_y, int material,
   scene_.primitives.back().kind = Primitive::Kind::kDisc;
 }
 
+void SceneBuilder::wedge(Place tip, double base_y, double half_x, int material) {
+  const Rig& rig = scene_.rig;
+  card(tip, half_x, 1, material);
+  Primitive& wedge = scene_.primitives.back();
+  wedge.kind = Primitive::Kind::kWedge;
+  wedge.y0 = tip.y * rig.height;
+  wedge.y1 = base_y * rig.height;
+}
+
 double SceneBuilder::radius_at(double radius, double nearness) const {
   const Rig& rig = scene_.rig;
   const double px = std::max(kMinRadiusPx, radius * std::min(rig.width, rig.height));

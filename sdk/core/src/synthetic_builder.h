@@ -44,6 +44,10 @@ class SceneBuilder {
   /// The same with an elliptic outline.
   void disc(Place place, double half_x, double half_y, int material, double slope_x = 0,
             double slope_y = 0);
+  /// What the centre view sees in a triangle of constant nearness: from its tip at `tip` to a base
+  /// of half width half_x in the height base_y (a fraction of the picture's height, above or
+  /// below).
+  void wedge(Place tip, double base_y, double half_x, int material);
   /// A ball or a rod with round ends; the foremost point has the nearness stated.
   void ball(Place place, double radius, int material);
   void rod(Place from, Place to, double radius, int material);

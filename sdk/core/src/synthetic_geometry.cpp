@@ -47,6 +47,11 @@ double intersect_rod(const Primitive& rod, Vec3d origin, Vec3d direction) {
 bool card_covers(const Primitive& card, double x, double y) {
   if (card.kind == Primitive::Kind::kCard)
     return x >= card.x0 && x <= card.x1 && y >= card.y0 && y <= card.y1;
+  if (card.kind == Primitive::Kind::kWedge) {
+    const double from_tip = (y - card.y0) / (card.y1 - card.y0);
+    return from_tip >= 0 && from_tip <= 1 &&
+           std::abs(2 * x - card.x0 - card.x1) <= from_tip * (card.x1 - card.x0);
+  }
   const double ex = (2 * x - card.x0 - card.x1) / (card.x1 - card.x0);
   const double ey = (2 * y - card.y0 - card.y1) / (card.y1 - card.y0);
   return ex * ex + ey * ey <= 1;
@@ -78,8 +83,7 @@ RigGeometry Rig::geometry() const {
 }
 
 Camera::Camera(const Rig& rig, const View& view)
-    : origin{view.s * rig.near_disparity / rig.focal,
-             view.t * rig.near_disparity / rig.focal, 0},
+    : origin{view.s * rig.near_disparity / rig.focal, view.t * rig.near_disparity / rig.focal, 0},
       u0(rig.cx - view.s * rig.offset),
       v0(rig.cy - view.t * rig.offset),
       inverse_focal(1 / rig.focal) {}
@@ -87,7 +91,8 @@ Camera::Camera(const Rig& rig, const View& view)
 double intersect(const Primitive& primitive, const Rig& rig, Vec3d origin, Vec3d direction) {
   switch (primitive.kind) {
     case Primitive::Kind::kCard:
-    case Primitive::Kind::kDisc: {
+    case Primitive::Kind::kDisc:
+    case Primitive::Kind::kWedge: {
       const double z =
           (primitive.plane_k - dot(primitive.normal, origin)) / dot(primitive.normal, direction);
       if (!(z > 0) || z == kNoHit) return kNoHit;
@@ -129,7 +134,7 @@ PixelBox bounds(const Primitive& primitive, const Rig& rig, const Camera& camera
     box = {std::min(box.u0, u), std::max(box.u1, u), std::min(box.v0, v), std::max(box.v1, v)};
   };
   const PixelBox everywhere{-kNoHit, kNoHit, -kNoHit, kNoHit};
-  if (primitive.kind == Primitive::Kind::kCard || primitive.kind == Primitive::Kind::kDisc) {
+  if (primitive.kind != Primitive::Kind::kBall && primitive.kind != Primitive::Kind::kRod) {
     for (const double x : {primitive.x0, primitive.x1}) {
       for (const double y : {primitive.y0, primitive.y1}) {
         if (!std::isfinite(x) || !std::isfinite(y)) return everywhere;

@@ -71,9 +71,11 @@ struct Material {
 Colour shade(const Material& material, Vec3f p, Vec3f normal, Vec3f to_viewer, float footprint);
 
 /// One surface. A card is the part of the plane dot(normal, P) = plane_k that the centre view sees
-/// inside [x0, x1] × [y0, y1] (px from the middle; may be infinite), or in the ellipse inscribed.
+/// inside [x0, x1] × [y0, y1] (px from the middle; may be infinite); a disc is the ellipse
+/// inscribed, a wedge the triangle with its tip in the middle of the side y0 and its base on y1,
+/// which may be above or below.
 struct Primitive {
-  enum class Kind { kCard, kDisc, kBall, kRod };
+  enum class Kind { kCard, kDisc, kWedge, kBall, kRod };
   Kind kind = Kind::kCard;
   int material = 0;
   Vec3d normal;  ///< Card: as above, of any length.

@@ -3,6 +3,7 @@
 #include <array>
 
 #include "synthetic_builder.h"
+#include "synthetic_hard_scenes.h"
 
 namespace gigaray::synthetic {
 namespace {
@@ -189,6 +190,9 @@ Scene build_scene(const SyntheticOptions& options) {
   if (options.scene == "sphere") build_sphere(builder);
   if (options.scene == "wall") build_wall(builder);
   if (options.scene == "specular") build_specular(builder);
+  if (options.scene == "plaster") build_plaster(builder);
+  if (options.scene == "silhouettes") build_silhouettes(builder);
+  if (options.scene == "wedges") build_wedges(builder);
   if (options.scene == "garden") build_garden(builder);
   return builder.finish();
 }

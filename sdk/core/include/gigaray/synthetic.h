@@ -48,7 +48,10 @@ struct SyntheticLightField {
 /// "sphere"  a curved object before a slanted plane
 /// "wall"    an untextured wall with a few textured objects
 /// "specular" a glossy patch whose highlight moves with the view
-/// "garden"  all of the above in one picture; the demo
+/// "plaster" a corridor between sloping walls: one without texture, one of which is barely visible
+/// "silhouettes" things before a wall of the same colours and texture
+/// "wedges"  thin wedges before a slanted plane
+/// "garden"  planes, rods, balls, a bare and a glossy surface in one picture; the demo
 const std::vector<std::string>& synthetic_scene_names();
 
 /// Renders every view, on all cores. Memory: 6 bytes per pixel and view plus one float map per

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Gigaray authors
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "gigaray/region_metrics.h"
+#include "gigaray/run_control.h"
+
+namespace gigaray::cli {
+
+/// One view to score: its truth and the estimate of every candidate, as files.
+struct ViewMaps {
+  std::string view;  ///< Empty: the one view that was given, or the centre.
+  std::filesystem::path truth;
+  std::vector<std::filesystem::path> estimates;
+};
+
+/// The maps of the views that `views` means: "centre" (a map, or the map at the top of a folder),
+/// "all" that have truth and an estimate of every candidate, or a comma-separated list of names.
+/// Views without truth are told to `control`. Throws Error(kBadInput) naming what is missing.
+std::vector<ViewMaps> find_view_maps(const std::vector<std::filesystem::path>& estimates,
+                                     const std::filesystem::path& truth, const std::string& views,
+                                     const RunControl& control);
+
+/// What is known about a scene beside its truth.
+struct SceneParts {
+  /// The masks of the scene by their name, as in mask_NAME_lowres.png, and those of --mask.
+  std::map<std::string, LabelMap> masks;
+  std::vector<std::string> asked;  ///< Names given by --mask, in their order.
+  RigGeometry rig;                 ///< Of the light field in the folder; empty if there is none.
+};
+
+/// Reads the masks of a scene's folder and those of "NAME=FILE" options, which come first. Masks
+/// are pictures or float maps. Throws Error(kInvalidArgument) for an option without a name,
+/// Error(kBadInput) naming a mask that can't be read or is not width x height.
+SceneParts read_scene_parts(const std::filesystem::path& truth,
+                            const std::vector<std::string>& mask_options, int width, int height);
+
+}  // namespace gigaray::cli
