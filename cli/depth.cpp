@@ -12,6 +12,7 @@
 #include "command.h"
 #include "depth_options_cli.h"
 #include "gigaray/adapters/depth_folder.h"
+#include "gigaray/metric_depth.h"
 #include "gigaray/reconstruct.h"
 #include "view_list.h"
 
@@ -91,6 +92,12 @@ ordered_json light_field_json(const LightField& light_field) {
             {"unit", rig.unit}}}};
 }
 
+/// Unit of depth.pfm; null when there is none.
+ordered_json depth_unit(const RigGeometry& rig) {
+  if (!has_metric_depth(rig)) return nullptr;
+  return rig.unit.empty() ? "unknown" : rig.unit;
+}
+
 void run(const Settings& settings, const RunControl& control) {
   const auto begin = std::chrono::steady_clock::now();
   LightField light_field = settings.run.input.open_light_field();
@@ -104,6 +111,7 @@ void run(const Settings& settings, const RunControl& control) {
                    : name == "npy" ? MapFormat::kNpy
                                    : MapFormat::kPng16);
   DepthFolder folder(settings.output, formats);
+  folder.set_rig(light_field.rig);
 
   Reconstruction result = reconstruct(light_field, options, settings.run.backend(), control);
 
@@ -138,6 +146,7 @@ void run(const Settings& settings, const RunControl& control) {
                     {"light_field", light_field_json(light_field)},
                     {"options", options_json(result)},
                     {"unit", "level-0 px per view step; positive is nearer"},
+                    {"depth_unit", depth_unit(light_field.rig)},
                     {"centre", light_field.views[centre].name},
                     {"top_level_view", light_field.views[top].name},
                     {"views", views},

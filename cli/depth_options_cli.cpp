@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "gigaray/scene_estimates.h"
+#include "gigaray/camera_order.h"
 
 namespace gigaray::cli {
 

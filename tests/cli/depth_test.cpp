@@ -54,7 +54,7 @@ TEST_F(DepthCommand, WritesEveryViewAndTheCentreAtTopLevel) {
   EXPECT_TRUE(result.out.starts_with("out: 5 views in ")) << result.out;
   EXPECT_EQ(std::count(result.out.begin(), result.out.end(), '\n'), 1);
 
-  const Names maps{"confidence.pfm", "depth.png", "disparity.pfm"};
+  const Names maps{"confidence.pfm", "depth.pfm", "depth.png", "disparity.pfm"};
   Names all = maps;
   all.insert("gigaray.json");
   for (int i = 0; i < 5; ++i) {
@@ -132,7 +132,7 @@ TEST_F(DepthCommand, ThePresetAndItsNumbersAreObeyed) {
 }
 
 TEST_F(DepthCommand, ViewsAreNamedByNameIndexAndRange) {
-  const Names top{"confidence.pfm", "depth.png", "disparity.pfm", "gigaray.json"};
+  const Names top{"confidence.pfm", "depth.pfm", "depth.png", "disparity.pfm", "gigaray.json"};
   const auto with = [&](Names names) {
     names.insert(top.begin(), top.end());
     return names;
@@ -191,7 +191,7 @@ TEST_F(DepthCommand, PlainPicturesNeedNoDescriptionAndNoDirection) {
   const Result result = run("depth left -o out --views centre");
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_NE(result.err.find("assumed to move to the right"), std::string::npos) << result.err;
-  EXPECT_NE(result.err.find("moves the other way than assumed"), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find("direction left, other than assumed"), std::string::npos) << result.err;
   EXPECT_NE(result.err.find("disparity range "), std::string::npos) << result.err;
   const DisparityScores scores = score_disparity(read_pfm(folder / "out/disparity.pfm"),
                                                  read_pfm(folder / "made/truth.pfm"), 5);

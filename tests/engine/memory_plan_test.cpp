@@ -129,6 +129,19 @@ TEST(MemoryPlan, FewerViewsThatKeepDepthTakeLess) {
 
 TEST(MemoryPlan, AnImpossibleLimitSaysWhatItTakes) {
   const LightField light_field = described(row_of_views(100), 1920, 1080);
+  for (const char* preset : {"paper", "auto"}) {
+    std::string line;
+    try {
+      plan(light_field, 100, preset);
+    } catch (const Error& error) {
+      line = error.what();
+    }
+    const auto at = line.find("at least ");
+    ASSERT_NE(at, std::string::npos) << line;
+    const double least = std::stod(line.substr(at + 9));
+    EXPECT_NO_THROW(plan(light_field, least, preset)) << line;
+    EXPECT_THROW(plan(light_field, 0.97 * least, preset), Error) << line;
+  }
   expect_error(ErrorCode::kOutOfMemory, {"100 MiB", "100 views", "at least"},
                [&] { plan(light_field, 100); });
 }

@@ -115,9 +115,10 @@ class ParityBench {
                              size.encoding == BandEncoding::kBits16 ? 16 : 8};
     reference = make_reference_backend(sampler_, setup);
     opencl = opencl::make_tuned_backend(sampler_, setup, "", tuning);
-    constexpr int kHalo = kSlopeReach + 3;  // no window reaches farther
+    // No window reaches farther.
+    const int halo = std::max(kSlopeReach, kScanlineReach + options.support.radius) + 3;
     loaded = sampler_.at_level(size.level)
-                 .rows_needed(grown(size.rows, kHalo, size.height), hypotheses_, size.height);
+                 .rows_needed(grown(size.rows, halo, size.height), hypotheses_, size.height);
     fill(views);
     std::vector<int> active(sampler_.num_views());
     for (int i = 0; i < int(active.size()); ++i) active[i] = int(active.size()) - 1 - i;

@@ -13,6 +13,8 @@
 #include "reference/downsample.h"
 #include "reference/edge_confidence.h"
 #include "reference/propagation.h"
+#include "reference/robust_score.h"
+#include "reference/scanline.h"
 #include "reference/score_support.h"
 #include "reference/slope_fit.h"
 #include "reference/unpack_channels.h"
@@ -26,6 +28,7 @@ using reference::Band;
 using reference::Scores;
 
 constexpr float kRounding = 1e-6f;
+constexpr float kStep = 0.035f;  // between hypotheses
 
 /// A band of all rows with value(view, u, v, c) everywhere.
 template <class Value>
@@ -76,7 +79,7 @@ TEST(ReferenceScore, IsOneWhereAllViewsSeeTheSame) {
   for (const double h : {-1.0, 0.0, 0.77}) {
     EXPECT_NEAR(reference::density_score(flat, sampler, 2, {15, 1, h}, paper_score()), 1,
                 kRounding);
-    EXPECT_NEAR(reference::density_score(flat, sampler, 2, {15, 1, h}, auto_options().score), 1,
+    EXPECT_NEAR(reference::robust_score(flat, sampler, 2, {15, 1, h}, auto_options().score, {}), 1,
                 kRounding);
   }
 }
@@ -180,7 +183,7 @@ struct WinnerRow {
     bounds.row(0)[0] = {0, 10};
   }
   float find(bool refine) {
-    reference::winner({0, 1}, scores, hypotheses, refine, todo, bounds, disparity, contrast);
+    reference::winner({0, 1}, scores, scores, 0, hypotheses, refine, todo, bounds, disparity, contrast);
     return disparity.row(0)[0];
   }
 };
@@ -301,10 +304,10 @@ TEST(ReferenceSlopes, OfAPlaneAreFoundDespiteHolesAndOutliers) {
       if ((u + v) % 11 == 0) in.row(v)[u] += 3;
     }
   StripMap<Slope> slopes(61, {0, 41});
-  reference::slope_fit(flat, 0, {0, 41}, 0.3f, in, slopes);
+  reference::slope_fit(flat, 0, {0, 41}, kStep, 0.3f, in, slopes);
   EXPECT_NEAR(slopes.row(20)[31].along_u, 0.013, 5e-4);
   EXPECT_NEAR(slopes.row(20)[31].along_v, -0.007, 5e-4);
-  reference::slope_fit(flat, 0, {20, 21}, 0.005f, in, slopes);
+  reference::slope_fit(flat, 0, {20, 21}, kStep, 0.005f, in, slopes);
   EXPECT_EQ(slopes.row(20)[31].along_u, 0.005f) << "no steeper than allowed";
 }
 
@@ -314,7 +317,7 @@ TEST(ReferenceSlopes, NothingIsSaidWithoutAnEstimate) {
   for (int v = 0; v < 31; ++v)
     for (int u = 0; u < 31; ++u) in.row(v)[u] = u == 15 ? kNoEstimate : 0.01f * float(u);
   StripMap<Slope> slopes(31, {0, 31});
-  reference::slope_fit(flat, 0, {0, 31}, 0.3f, in, slopes);
+  reference::slope_fit(flat, 0, {0, 31}, kStep, 0.3f, in, slopes);
   EXPECT_EQ(slopes.row(15)[15].along_u, 0);
   EXPECT_GT(slopes.row(15)[16].along_u, 0.009f);
 }

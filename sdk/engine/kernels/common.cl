@@ -32,6 +32,7 @@ typedef uint vuint;
 #define VLOAD(p) (*(p))
 #define VSTORE(value, p) (*(p) = (value))
 #define VLANES 0
+#define LANE_NUMBERS 0.0f
 #define VANY(condition) (condition)
 #define VSELECT(otherwise, value, condition) ((condition) ? (value) : (otherwise))
 #define VTRUE(condition) (-(condition))
@@ -60,6 +61,9 @@ typedef CONCAT(uint, LANES) vuint;
 #define VAS_UINT(x) CONCAT(as_uint, LANES)(x)
 #define VAS_FLOAT(x) CONCAT(as_float, LANES)(x)
 #endif
+#if LANES > 1
+#define LANE_NUMBERS CONCAT(convert_float, LANES)(VLANES)
+#endif
 // VTRUE: a condition as 0 or -1 per lane, whatever LANES is.
 
 // Pixel u of a row of a map of the reference view.
@@ -67,10 +71,31 @@ static inline size_t map_index(const StripParams strip, int row, int u) {
   return (size_t)row * strip.pitch + GIGARAY_PAD + u;
 }
 
-// Pixel u of hypothesis i of a row of a score volume.
-static inline size_t score_index(const StripParams strip, int hypotheses, int row, int i, int u) {
-  return ((size_t)row * hypotheses + i) * strip.pitch + GIGARAY_PAD + u;
+// Hypothesis 0 of pixel u of a row of a score volume. GIGARAY_PAD floats before and after the volume
+// belong to it, so that lanes may reach beyond a pixel's hypotheses.
+static inline size_t score_index(const StripParams strip, const HypothesisParams hypotheses, int row,
+                                 int u) {
+  return GIGARAY_PAD + ((size_t)row * strip.width + u) * hypotheses.pitch;
 }
+
+// Writes the scores of LANES neighbouring pixels under one hypothesis; column: score_index of the first.
+static inline void store_scores(__global float* column, const HypothesisParams hypotheses, int i,
+                                int pixels, vfloat value) {
+  float lanes[LANES];
+  VSTORE(value, lanes);
+  for (int lane = 0; lane < LANES; ++lane)
+    if (lane < pixels) column[(size_t)lane * hypotheses.pitch + i] = lanes[lane];
+}
+
+// Sum of kernels over the views that see the point, but at least over floor_views of them; -1 where
+// fewer than min_views do.
+static inline vfloat score_of(vfloat density, vfloat count, int min_views, float floor_views) {
+  return VSELECT((vfloat)(-1.0f), density / max(count, (vfloat)(floor_views)),
+                 count >= (float)min_views);
+}
+
+// The first index of whole lanes at or below i.
+static inline int lanes_floor(int i) { return i / LANES * LANES; }
 
 // First pixel of channel 0 of a row of a view.
 static inline __global const float* band_row(__global const float* band, const BandParams p, int view,
@@ -92,6 +117,47 @@ static inline int split_snapped(float x, float* fraction) {
   const int up = rest > 1.0f - SNAP;
   *fraction = up || rest < SNAP ? 0.0f : rest;
   return whole + up;
+}
+
+// By halves: any() goes through the lanes one by one under PoCL.
+static inline float largest_lane(vfloat x) {
+#if LANES == 1
+  return x;
+#else
+#if LANES == 16
+  const float8 x8 = max(x.lo, x.hi);
+#endif
+#if LANES == 8
+  const float8 x8 = x;
+#endif
+#if LANES >= 8
+  const float4 x4 = max(x8.lo, x8.hi);
+#else
+  const float4 x4 = x;
+#endif
+  const float2 x2 = max(x4.lo, x4.hi);
+  return max(x2.x, x2.y);
+#endif
+}
+
+static inline float sum_of_lanes(vfloat x) {
+#if LANES == 1
+  return x;
+#else
+#if LANES == 16
+  const float8 x8 = x.lo + x.hi;
+#endif
+#if LANES == 8
+  const float8 x8 = x;
+#endif
+#if LANES >= 8
+  const float4 x4 = x8.lo + x8.hi;
+#else
+  const float4 x4 = x;
+#endif
+  const float2 x2 = x4.lo + x4.hi;
+  return x2.x + x2.y;
+#endif
 }
 
 // Squared colour distance of LANES neighbouring pixels of two rows.

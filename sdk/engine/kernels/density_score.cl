@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Gigaray authors
 // Density score (eq. 3-5): how densely the colours that all views see under a hypothesis lie around
-// the reference pixel's colour.
+// the mean that mean-shift finds from the reference pixel's colour; Epanechnikov kernel.
 //   band    [row][view][channel][stride]
 //   todo    [row][pitch] bytes, 0: nothing to do; a block of LANES zeros costs nothing
 //   bounds  [row][pitch] (first, last) hypothesis to test
 //   shifts  [hypothesis][view], from block_shifts
-//   scores  [row][hypothesis][pitch]; -1 where too few views see the point. Hypotheses outside the
+//   scores  [row][u][hypothesis]; -1 where too few views see the point. Hypotheses outside the
 //           union of a block's bounds are not written.
 //   staged  local memory, 4 vectors per view: the samples, read once and used by every mean-shift
 //           iteration (STAGE 1: CPUs; with STAGE 0 they are fetched again each time)
@@ -14,9 +14,6 @@
 
 #ifndef ITERATIONS
 #define ITERATIONS 10  // mean-shift iterations before the score (eq. 5); 0: none
-#endif
-#ifndef GRADIENT
-#define GRADIENT 0  // 1: triangle kernels of colour and gradient; 0: Epanechnikov kernel of colour
 #endif
 #ifndef STAGE
 #define STAGE 1
@@ -28,35 +25,6 @@
 #define MOVE_BOUND 1e-4f
 #endif
 
-// The same for all pixels of a view: worked out once. One work-item per (view, hypothesis).
-__kernel void block_shifts(__global const float* views, const int ref, const int num_views,
-                           const HypothesisParams hypotheses, __global BlockShift* shifts) {
-  const int k = get_global_id(0), i = get_global_id(1);
-  shifts[i * num_views + k] = block_shift(views, ref, k, hypotheses.min + i * hypotheses.step);
-}
-
-// By halves: any() goes through the lanes one by one under PoCL.
-static inline float largest_lane(vfloat x) {
-#if LANES == 1
-  return x;
-#else
-#if LANES == 16
-  const float8 x8 = max(x.lo, x.hi);
-#endif
-#if LANES == 8
-  const float8 x8 = x;
-#endif
-#if LANES >= 8
-  const float4 x4 = max(x8.lo, x8.hi);
-#else
-  const float4 x4 = x;
-#endif
-  const float2 x2 = max(x4.lo, x4.hi);
-  return max(x2.x, x2.y);
-#endif
-}
-
-#if !GRADIENT
 // A sample of a view as mean-shift wants it: the colour relative to the pixel's own, in units of the
 // bandwidth, and its squared length. With them the kernel around a mean m (in the same units) is
 //   1 - |x - m|^2 = (1 - |m|^2) - |x|^2 + 2 m x
@@ -196,19 +164,11 @@ static inline vfloat mean_shift_density(__local const vfloat* staged, __global c
     density += epanechnikov(sample_again(staged, band, p, k, shift, u, v, own, inverse_h), mean);
   return density;
 }
-#endif
-
-static inline vfloat score_of(vfloat density, vfloat count, int min_views, float floor_views) {
-  return VSELECT((vfloat)(-1.0f), density / max(count, (vfloat)(floor_views)),
-                 count >= (float)min_views);
-}
 
 __kernel void density_score(__global const float* band, const BandParams p, const StripParams strip,
                             __global const BlockShift* shifts, const HypothesisParams hypotheses,
                             __global const uchar* todo, __global const ushort2* bounds,
-                            const float bandwidth, const float gradient_bandwidth,
-                            const float gradient_share, const int min_views,
-                            const float floor_views, __global float* scores, __local vfloat* staged) {
+                            const float bandwidth, const int min_views, const float floor_views, __global float* scores, __local vfloat* staged) {
   const int u = get_global_id(0) * LANES, row = get_global_id(1);
   if (u >= strip.width) return;
   const int v = strip.row_begin + row;
@@ -217,36 +177,15 @@ __kernel void density_score(__global const float* band, const BandParams p, cons
   const int first = tested.x, last = tested.y;
   if (last < 0) return;
 
-  vfloat own[CHANNELS];
+  vfloat own[3];
   __global const float* here = band_row(band, p, strip.ref, v) + u;
   UNROLL
-  for (int c = 0; c < CHANNELS; ++c) own[c] = VLOAD(here + c * p.stride);
+  for (int c = 0; c < 3; ++c) own[c] = VLOAD(here + c * p.stride);
   const float inverse_h = 1.0f / bandwidth;
 
   for (int i = first; i <= last; ++i) {
     __global const BlockShift* shift = shifts + (size_t)i * p.num_views;
-    vfloat count = (vfloat)(0.0f), density = (vfloat)(0.0f);
-#if GRADIENT
-    const float inverse_g = 1.0f / gradient_bandwidth;
-    for (int k = 0; k < p.num_views; ++k) {
-      BlockPosition at;
-      vfloat inside;
-      if (!place_block(p, shift[k], u, v, &at, &inside)) continue;
-      count += inside;
-      vfloat colour[CHANNELS];
-      sample_block(band, p, k, at, 0, 3, colour);
-      const vfloat r = colour[0] - own[0], g = colour[1] - own[1], b = colour[2] - own[2];
-      const vfloat k_colour =
-          inside * max(1.0f - sqrt(r * r + g * g + b * b) * inverse_h, (vfloat)(0.0f));
-      // Another colour is an occluder: its gradient is not asked for.
-      if (!(largest_lane(k_colour) > 0.0f)) continue;
-      sample_block(band, p, k, at, 3, CHANNELS, colour);
-      const vfloat gx = colour[3] - own[3], gy = colour[4] - own[4];
-      const vfloat k_gradient = max(1.0f - sqrt(gx * gx + gy * gy) * inverse_g, (vfloat)(0.0f));
-      density += (1.0f - gradient_share) * k_colour +
-                 gradient_share * k_gradient * min(4.0f * k_colour, (vfloat)(1.0f));
-    }
-#else
+    vfloat count = (vfloat)(0.0f);
     // The first iteration goes with taking the samples: around the pixel's own colour.
     MeanShiftSums sums = {0.0f, 0.0f, 0.0f, 0.0f};
     for (int k = 0; k < p.num_views; ++k) {
@@ -256,14 +195,13 @@ __kernel void density_score(__global const float* band, const BandParams p, cons
 #endif
       add_sample(&sums, x, max(1.0f - x.length2, (vfloat)(0.0f)));
     }
-    density = mean_shift_density(staged, band, p, shift, u, v, own, inverse_h, sums);
-#endif
-    VSTORE(score_of(density, count, min_views, floor_views),
-           scores + score_index(strip, hypotheses.count, row, i, u));
+    const vfloat density = mean_shift_density(staged, band, p, shift, u, v, own, inverse_h, sums);
+    store_scores(scores + score_index(strip, hypotheses, row, u), hypotheses, i, strip.width - u,
+                 score_of(density, count, min_views, floor_views));
   }
 }
 
-#if STAGE && !GRADIENT && !CUBIC && LANES > 1
+#if STAGE && !CUBIC && LANES > 1
 // The same for pixels that stand alone, LANES of them together: most pixels of a view are known already
 // when its turn comes. The samples are fetched one by one; what follows is the same arithmetic, and
 // every pixel gets the same bits.
@@ -347,7 +285,7 @@ __kernel void density_score_packed(
     float score[LANES];
     VSTORE(score_of(density, count, min_views, floor_views), score);
     for (int lane = 0; lane < LANES; ++lane)
-      scores[score_index(strip, hypotheses.count, rows[lane], i, columns[lane])] = score[lane];
+      scores[score_index(strip, hypotheses, rows[lane], columns[lane]) + i] = score[lane];
   }
 }
 #endif

@@ -12,6 +12,10 @@ namespace gigaray {
 /// load of LANES neighbours with interpolation taps never leaves the row.
 #define GIGARAY_PAD 32
 
+/// The scan-line step follows columns in blocks of rows, each with rows around it: see scanline.cl.
+#define SCANLINE_BLOCK 16
+#define SCANLINE_REACH 16
+
 /// A band: rows [row_begin, row_end) of all views at one level, as floats
 /// [row][view][channel][stride], pixel u at GIGARAY_PAD + u.
 typedef struct BandParams {
@@ -23,9 +27,9 @@ typedef struct BandParams {
   int row_end;
 } BandParams;
 
-/// The rows of the reference view that a step works on. Maps of it are [row - row_begin][pitch],
-/// score volumes [row - row_begin][hypothesis][pitch]; pixel u stands at GIGARAY_PAD + u, as in a band,
-/// and pitch is the stride of the band.
+/// The rows of the reference view that a step works on. Maps of it are [row - row_begin][pitch] with
+/// pixel u at GIGARAY_PAD + u, as in a band, and pitch is the stride of the band. Score volumes are
+/// [row][u][hypothesis], see score_index().
 typedef struct StripParams {
   int ref;    ///< reference view
   int width;  ///< px
@@ -39,6 +43,7 @@ typedef struct HypothesisParams {
   float min;
   float step;
   int count;
+  int pitch;  ///< floats per pixel of a score volume: count, rounded up to whole lanes
 } HypothesisParams;
 
 /// Where another view sees a block of neighbouring pixels (u, v), (u + 1, v), … of the reference view

@@ -13,10 +13,11 @@
 #define SIGMA_COLOUR 0.05f
 #define SIGMA_SPACE 8.0f  // px
 
-__constant float RESIDUAL_SCALE[3] = {0.4f, 0.2f, 0.1f};
+__constant float RESIDUAL_SCALE[3] = {12.0f, 6.0f, 3.0f};  // hypotheses
 
 __kernel void slope_fit(__global const float* band, const BandParams p, const StripParams strip,
-                        __global const float* in, const int in_begin, const float max_slope,
+                        __global const float* in, const int in_begin, const float step,
+                        const float max_slope,
                         __global float* slopes) {
   const int u = get_global_id(0) * LANES, row = get_global_id(1);
   if (u >= strip.width) return;
@@ -27,7 +28,7 @@ __kernel void slope_fit(__global const float* band, const BandParams p, const St
 
   vfloat slope_u = (vfloat)(0.0f), slope_v = (vfloat)(0.0f);
   for (int round = 0; round < 3; ++round) {
-    const float inverse_scale = 1.0f / RESIDUAL_SCALE[round];
+    const float inverse_scale = 1.0f / (step * RESIDUAL_SCALE[round]);
     // Normal equations of two unknowns; a little weight on "no slope" keeps them solvable.
     vfloat uu = (vfloat)(1e-3f), uv = (vfloat)(0.0f), vv = uu, ud = uv, vd = uv;
     for (int j = -SAMPLES; j <= SAMPLES; ++j) {

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Gigaray authors
 // The winner (eq. 6) and how far it stands out (eq. 7, the mean over the tested hypotheses).
-//   scores     [row][hypothesis][pitch]; negative: not tested
+//   chosen_by  [row - scores_begin][u][hypothesis]: their largest decides, then the largest of `scores`
+//              no farther than `search` hypotheses from it; the same volume as `scores` unless there was
+//              a scan-line step
+//   scores     [row - scores_begin][u][hypothesis]; negative: not tested
 //   todo, bounds as for density_score
 //   disparity  [row][pitch], level-0 px per view step (or inverse depth); NaN: no estimate
 //   contrast   [row][pitch], best score minus mean score
-// One work-item per (block of LANES pixels, row). Of equal scores the smallest hypothesis wins.
+// One work-item per pixel; lanes are hypotheses. Of equal scores the smallest hypothesis wins.
 
 #ifndef REFINE
 #define REFINE 0  // 1: vertex of the parabola through the winner and its neighbours
@@ -13,58 +16,80 @@
 
 __kernel void winner(const StripParams strip, const HypothesisParams hypotheses,
                      __global const uchar* todo, __global const ushort2* bounds,
-                     __global const float* scores, __global float* disparity,
+                     __global const float* chosen_by, __global const float* scores,
+                     const int scores_begin, const int search, __global float* disparity,
                      __global float* contrast) {
-  const int u = get_global_id(0) * LANES, row = get_global_id(1);
+  const int u = get_global_id(0), row = get_global_id(1);
   if (u >= strip.width) return;
-  int any_first = hypotheses.count, any_last = -1;
-  vint first = (vint)(1), last = (vint)(0);
-  for (int lane = 0; lane < LANES; ++lane) {
-    const size_t i = map_index(strip, row, u + lane);
-    if (todo[i]) {
-      ((int*)&first)[lane] = bounds[i].x;
-      ((int*)&last)[lane] = bounds[i].y;
-      any_first = min(any_first, (int)bounds[i].x);
-      any_last = max(any_last, (int)bounds[i].y);
-    }
-  }
-  __global float* out = disparity + map_index(strip, row, u);
-  if (any_last < 0) {
-    VSTORE((vfloat)(NAN), out);
-    VSTORE((vfloat)(0.0f), contrast + map_index(strip, row, u));
-    return;
-  }
+  const size_t pixel = map_index(strip, row, u);
+  disparity[pixel] = NAN;
+  contrast[pixel] = 0.0f;
+  if (!todo[pixel]) return;
+  const int first = bounds[pixel].x, last = bounds[pixel].y;
+  const size_t at = score_index(strip, hypotheses, strip.row_begin + row - scores_begin, u);
+  __global const float* choice = chosen_by + at;
+  __global const float* score = scores + at;
 
-  __global const float* column = scores + score_index(strip, hypotheses.count, row, 0, u);
-  vfloat best = (vfloat)(-1.0f), sum = (vfloat)(0.0f), tested = (vfloat)(0.0f);
-  vint best_index = (vint)(-1);
-  for (int i = any_first; i <= any_last; ++i) {
-    const vfloat s = VLOAD(column + (size_t)i * strip.pitch);
-    const vint valid = i >= first && i <= last && s >= 0.0f;
+  vfloat best = (vfloat)(-INFINITY), sum = (vfloat)(0.0f), tested = (vfloat)(0.0f);
+  vint best_index = (vint)(INT_MAX);
+  for (int i = lanes_floor(first); i <= last; i += LANES) {
+    const vint index = i + VLANES;
+    const vfloat s = VLOAD(score + i), c = VLOAD(choice + i);
+    const vint valid = VTRUE(index >= first && index <= last && s >= 0.0f);
     sum += VSELECT((vfloat)(0.0f), s, valid);
     tested += VSELECT((vfloat)(0.0f), (vfloat)(1.0f), valid);
-    const vint better = valid && s > best;
-    best = VSELECT(best, s, better);
-    best_index = VSELECT(best_index, (vint)(i), better);
+    const vint better = VTRUE(valid && c > best);
+    best = VSELECT(best, c, better);
+    best_index = VSELECT(best_index, index, better);
   }
-  VSTORE(VSELECT((vfloat)(0.0f), best - sum / fmax(tested, 1.0f), best_index >= 0),
-         contrast + map_index(strip, row, u));
-
-  for (int lane = 0; lane < LANES; ++lane) {
-    const int i = ((const int*)&best_index)[lane];
-    float h = NAN;
-    if (i >= 0) {
-      h = hypotheses.min + i * hypotheses.step;
-#if REFINE
-      if (i > ((const int*)&first)[lane] && i < ((const int*)&last)[lane]) {
-        __global const float* s = column + (size_t)i * strip.pitch + lane;
-        const float before = s[-strip.pitch], peak = s[0], after = s[strip.pitch];
-        const float curve = before - 2.0f * peak + after;
-        if (before >= 0.0f && after >= 0.0f && curve < 0.0f)
-          h += hypotheses.step * clamp(0.5f * (before - after) / curve, -0.5f, 0.5f);
-      }
+  float lane_best[LANES];
+  int lane_index[LANES];
+  VSTORE(best, lane_best);
+#if LANES == 1
+  lane_index[0] = best_index;
+#else
+  CONCAT(vstore, LANES)(best_index, 0, lane_index);
 #endif
+  int winner = lane_index[0];
+  float most = lane_best[0];
+  for (int lane = 1; lane < LANES; ++lane)
+    if (lane_best[lane] > most || (lane_best[lane] == most && lane_index[lane] < winner)) {
+      most = lane_best[lane];
+      winner = lane_index[lane];
     }
-    out[lane] = h;
+  if (winner == INT_MAX) return;
+
+  const int chosen = winner;
+  for (int i = max(chosen - search, first); i <= min(chosen + search, last); ++i)
+    if (score[i] > score[winner]) winner = i;
+  contrast[pixel] = score[winner] - sum_of_lanes(sum) / sum_of_lanes(tested);
+  float h = hypotheses.min + winner * hypotheses.step;
+#if REFINE
+  if (winner > first && winner < last) {
+    const float before = score[winner - 1], peak = score[winner], after = score[winner + 1];
+    const float curve = before - 2.0f * peak + after;
+    if (before >= 0.0f && after >= 0.0f && curve < 0.0f)
+      h += hypotheses.step * clamp(0.5f * (before - after) / curve, -0.5f, 0.5f);
   }
+#endif
+  disparity[pixel] = h;
+}
+
+// The score of the hypothesis next to an estimate.
+//   disparity  [row][pitch], NaN: no estimate
+//   out        [row][pitch], NaN where there is no estimate or nothing to do
+// One work-item per pixel.
+__kernel void score_of_estimate(const StripParams strip, const HypothesisParams hypotheses,
+                                __global const uchar* todo, __global const float* scores,
+                                const int scores_begin, __global const float* disparity,
+                                __global float* out) {
+  const int u = get_global_id(0), row = get_global_id(1);
+  if (u >= strip.width) return;
+  const size_t pixel = map_index(strip, row, u);
+  out[pixel] = NAN;
+  if (!todo[pixel] || isnan(disparity[pixel])) return;
+  const int i = clamp((int)rint((disparity[pixel] - hypotheses.min) / hypotheses.step), 0,
+                      hypotheses.count - 1);
+  out[pixel] =
+      scores[score_index(strip, hypotheses, strip.row_begin + row - scores_begin, u) + i];
 }

@@ -10,6 +10,7 @@
 #include "opencl/buffer.h"
 #include "opencl/opencl_backend.h"
 #include "opencl/program_cache.h"
+#include "src/half_planes.h"
 
 namespace gigaray {
 namespace {
@@ -21,6 +22,12 @@ using opencl::round_up;
 using opencl::WorkSize;
 
 static_assert(StripMap<float>::kPad == GIGARAY_PAD);
+static_assert(kScanlineBlock == SCANLINE_BLOCK && kScanlineReach == SCANLINE_REACH);
+
+/// Lanes never reach beyond this many hypotheses of a pixel.
+constexpr int kWidestLanes = 16;
+/// Floats beside the states of a scan-line, see scanline.cl.
+constexpr int kScanlineMargin = 16;
 
 /// Local memory of density_score per view, see there; mean_radiance takes 3.
 constexpr int kStagedVectors = 4;
@@ -30,11 +37,17 @@ struct LaneKernel {
   Kernel kernel;
   int lanes = 1;
   int group = 1;
+  int units = 1;        ///< Blocks of lanes that a work-item does.
   bool staged = false;  ///< STAGE 1, see density_score.cl.
 
   void run(int width, int rows, int views = 1) const {
-    const std::size_t blocks = (std::size_t(width) + lanes - 1) / lanes;
-    kernel.run(WorkSize(round_up(blocks, group), rows, views), WorkSize(group, 1, 1));
+    const std::size_t pixels = std::size_t(lanes) * units;
+    kernel.run(WorkSize(round_up((width + pixels - 1) / pixels, group), rows, views),
+               WorkSize(group, 1, 1));
+  }
+  /// Of kernels with a work-item per pixel: their lanes are hypotheses.
+  void run_pixels(int width, int rows) const {
+    kernel.run(WorkSize(round_up(width, group), rows), WorkSize(group, 1));
   }
   /// Local memory of `count` vectors for every work-item of a group.
   LocalMemory vectors(std::size_t count) const {
@@ -93,6 +106,7 @@ std::vector<int> pack_sparse_blocks(RowRange rows, int lanes, StripMap<std::uint
 struct SamplerTwin {
   std::string kernel_file;
   std::function<std::vector<float>(int level)> view_table;
+  std::function<std::vector<std::uint8_t>(int ref)> half_planes;
   int num_views = 0;
 };
 
@@ -106,7 +120,8 @@ class OpenClBackend : public Backend {
         device_(opencl::Device::open(selection)),
         table_(colour_table(setup.bit_depth, setup.options.score.linear_rgb)) {
     hypotheses_ = {float(setup.hypotheses.min), float(setup.hypotheses.step()),
-                   setup.hypotheses.count};
+                   setup.hypotheses.count,
+                   int(round_up(setup.hypotheses.count, kWidestLanes))};
     table_buffer_ = Buffer(device_, std::span<const float>(table_));
   }
 
@@ -169,11 +184,9 @@ class OpenClBackend : public Backend {
     const std::string options =
         score_defines() + (score.stop_early ? "" : " -DMOVE_BOUND=0.0f");
     LaneKernel& kernel = lane_kernel("density_score", options);
-    raw_rows_ = rows;
-    Buffer& scores = raw_scores_.at_least(device_, volume_bytes(rows));
-    winner_reads(raw_scores_, rows);
-    const float all = float(band_.num_views), floor_views = score.floor_views * all;
-    const int min_views = std::max(1, int(std::ceil(score.min_views * all)));
+    Buffer& scores = raw_volume(rows);
+    const float floor_views = score.floor_views * float(band_.num_views);
+    const int min_views = least_views();
     const LocalMemory staged =
         kernel.vectors(kernel.staged ? kStagedVectors * band_.num_views : 1);
     Buffer& tested = upload(2, rows, bounds);
@@ -183,9 +196,8 @@ class OpenClBackend : public Backend {
     if (kernel.staged && kernel.lanes > 1 && !score.cubic)
       packed = pack_sparse_blocks(rows, kernel.lanes, in_blocks);
     kernel.kernel.set_args(band_memory_.buffer, band_, strip(ref, rows), block_shifts(ref),
-                           hypotheses_, upload(1, rows, in_blocks), tested, score.bandwidth,
-                           score.gradient_bandwidth, score.gradient_share, min_views, floor_views,
-                           scores, staged);
+                           hypotheses_, upload(1, rows, in_blocks), tested, score.bandwidth, min_views,
+                           floor_views, scores, staged);
     kernel.run(band_.width, rows.size());
     if (!packed.empty()) {
       LaneKernel& sparse = lane_kernel("density_score", options, "density_score_packed");
@@ -200,17 +212,36 @@ class OpenClBackend : public Backend {
     device_.finish();  // so that the stage's seconds are its own
   }
 
+  void robust_score(int ref, RowRange rows, const StripMap<std::uint8_t>& todo,
+                    const StripMap<HypothesisBounds>& bounds, bool half_planes) override {
+    const ScoreOptions& score = setup_.options.score;
+    LaneKernel& kernel =
+        lane_kernel("robust_score", define("CUBIC", score.cubic) + define("HALF_PLANES", half_planes));
+    if (planes_ref_ != ref) {
+      const std::vector<std::uint8_t> planes = sampler_.half_planes(ref);
+      planes_buffer_ = Buffer(device_, std::span<const std::uint8_t>(planes));
+      planes_ref_ = ref;
+    }
+    Buffer& scores = raw_volume(rows);
+    const float floor_views =
+        (half_planes ? kLeastHalfPlane : score.floor_views) * float(band_.num_views);
+    kernel.kernel.set_args(band_memory_.buffer, band_, strip(ref, rows), block_shifts(ref),
+                           hypotheses_, upload(1, rows, todo), upload(2, rows, bounds),
+                           planes_buffer_, score.bandwidth, score.gradient_bandwidth,
+                           score.gradient_share, least_views(), floor_views, scores);
+    kernel.run(band_.width, rows.size());
+    device_.finish();
+  }
+
   void score_support(int ref, RowRange rows, const StripMap<std::uint8_t>& todo,
                      const StripMap<HypothesisBounds>& bounds) override {
     const SupportOptions& support = setup_.options.support;
     LaneKernel& kernel = lane_kernel("score_support", define("RADIUS", support.radius));
     Buffer& supported = supported_scores_.at_least(device_, volume_bytes(rows));
-    const std::size_t window = 2 * support.radius + 1;
     kernel.kernel.set_args(band_memory_.buffer, band_, strip(ref, rows), hypotheses_,
                            upload(1, rows, todo), upload(2, rows, bounds), raw_scores_.buffer,
-                           raw_rows_.begin, support.sigma_colour, support.sigma_space, supported,
-                           kernel.vectors(window * window));
-    kernel.run(band_.width, rows.size());
+                           raw_rows_.begin, support.sigma_colour, support.sigma_space, supported);
+    kernel.run_pixels(band_.width, rows.size());
     device_.finish();
     winner_reads(supported_scores_, rows);
   }
@@ -219,16 +250,41 @@ class OpenClBackend : public Backend {
                        const StripMap<HypothesisBounds>& bounds,
                        const StripMap<Slope>& slopes) override {
     const SupportOptions& support = setup_.options.support;
-    LaneKernel& kernel = lane_kernel("slanted_support", define("RADIUS", support.radius));
+    LaneKernel& kernel =
+        lane_kernel("score_support", define("RADIUS", support.radius), "slanted_support");
     Buffer& supported = supported_scores_.at_least(device_, volume_bytes(rows));
-    const std::size_t window = 2 * support.radius + 1;
     kernel.kernel.set_args(band_memory_.buffer, band_, strip(ref, rows), hypotheses_,
                            upload(1, rows, todo), upload(2, rows, bounds), upload(5, rows, slopes),
                            raw_scores_.buffer, raw_rows_.begin, support.sigma_colour,
-                           support.sigma_space, supported, kernel.vectors(2 * window * window));
-    kernel.run(band_.width, rows.size());
+                           support.sigma_space, supported);
+    kernel.run_pixels(band_.width, rows.size());
     device_.finish();
     winner_reads(supported_scores_, rows);
+  }
+
+  void scanline(int ref, RowRange rows, const StripMap<std::uint8_t>& todo) override {
+    GIGARAY_CHECK(rows.begin % kScanlineBlock == 0 && winner_scores_ == &supported_scores_);
+    const SupportOptions& support = setup_.options.support;
+    LaneKernel& kernel = lane_kernel("scanline", "");
+    Buffer& paths = path_scores_.at_least(device_, volume_bytes(score_rows_));
+    Buffer& tested = upload(1, score_rows_, todo);
+    const std::size_t states = 2 * (hypotheses_.pitch + 2 * kScanlineMargin) + kernel.group;
+    const int blocks = (rows.size() + kScanlineBlock - 1) / kScanlineBlock;
+    const int directions[4][2] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}};
+    for (int i = 0; i < 4; ++i) {
+      const auto [du, dv] = directions[i];
+      kernel.kernel.set_args(band_memory_.buffer, band_, strip(ref, rows), hypotheses_, tested,
+                             supported_scores_.buffer, score_rows_.begin, du, dv, support.small_price,
+                             support.jump_price, support.jump_sigma_colour, int(i > 0), paths,
+                             LocalMemory{states * sizeof(float)});
+      const std::size_t group = kernel.group;
+      if (dv == 0)
+        kernel.kernel.run(WorkSize(rows.size() * group, 1), WorkSize(group, 1));
+      else
+        kernel.kernel.run(WorkSize(band_.width * group, blocks), WorkSize(group, 1));
+    }
+    device_.finish();
+    chosen_by_ = &path_scores_;
   }
 
   void slope_fit(int ref, RowRange rows, const StripMap<float>& in,
@@ -237,7 +293,8 @@ class OpenClBackend : public Backend {
     const RowRange around = grown(rows, kSlopeReach, band_.height);
     Buffer& out = map_out(5, rows, sizeof(Slope));
     kernel.kernel.set_args(band_memory_.buffer, band_, strip(ref, rows), upload(4, around, in),
-                           around.begin, setup_.options.support.max_slope, out);
+                           around.begin, hypotheses_.step,
+                           hypotheses_.step * setup_.options.support.max_slope, out);
     kernel.run(band_.width, rows.size());
     download(out, rows, slopes);
   }
@@ -245,25 +302,36 @@ class OpenClBackend : public Backend {
   void winner(RowRange rows, const StripMap<std::uint8_t>& todo,
               const StripMap<HypothesisBounds>& bounds, StripMap<float>& disparity,
               StripMap<float>& contrast) override {
-    GIGARAY_CHECK(rows == score_rows_);
+    GIGARAY_CHECK(rows.begin >= score_rows_.begin && rows.end <= score_rows_.end);
     LaneKernel& kernel = lane_kernel("winner", define("REFINE", setup_.options.winner.refine));
     Buffer& best = map_out(3, rows, sizeof(float));
     Buffer& lead = map_out(4, rows, sizeof(float));
+    const int search = chosen_by_ == winner_scores_ ? 0 : kScanlineSearch;
     kernel.kernel.set_args(strip(0, rows), hypotheses_, upload(1, rows, todo), upload(2, rows, bounds),
-                           winner_scores_->buffer, best, lead);
-    kernel.run(band_.width, rows.size());
+                           chosen_by_->buffer, winner_scores_->buffer, score_rows_.begin, search, best,
+                           lead);
+    kernel.run_pixels(band_.width, rows.size());
     download(best, rows, disparity);
     download(lead, rows, contrast);
+  }
+
+  void score_of_estimate(RowRange rows, const StripMap<std::uint8_t>& todo,
+                         const StripMap<float>& disparity, StripMap<float>& scores) override {
+    GIGARAY_CHECK(rows.begin >= score_rows_.begin && rows.end <= score_rows_.end);
+    LaneKernel& kernel = lane_kernel("winner", "", "score_of_estimate");
+    Buffer& out = map_out(4, rows, sizeof(float));
+    kernel.kernel.set_args(strip(0, rows), hypotheses_, upload(1, rows, todo),
+                           winner_scores_->buffer, score_rows_.begin, upload(3, rows, disparity), out);
+    kernel.run_pixels(band_.width, rows.size());
+    download(out, rows, scores);
   }
 
   std::vector<float> scores_at(int u, int v) override {
     GIGARAY_CHECK(score_rows_.contains(v));
     std::vector<float> scores(setup_.hypotheses.count);
-    for (int i = 0; i < int(scores.size()); ++i) {
-      const std::size_t at =
-          (std::size_t(v - score_rows_.begin) * scores.size() + i) * band_.stride + GIGARAY_PAD + u;
-      winner_scores_->buffer.read(std::span(&scores[i], 1), at * sizeof(float));
-    }
+    const std::size_t pixel = std::size_t(v - score_rows_.begin) * band_.width + u;
+    winner_scores_->buffer.read(std::span(scores),
+                                (GIGARAY_PAD + pixel * hypotheses_.pitch) * sizeof(float));
     return scores;
   }
 
@@ -335,12 +403,20 @@ class OpenClBackend : public Backend {
   }
 
   std::size_t volume_bytes(RowRange rows) const {
-    return std::size_t(rows.size()) * hypotheses_.count * band_.stride * sizeof(float);
+    return (std::size_t(rows.size()) * band_.width * hypotheses_.pitch + 2 * GIGARAY_PAD) *
+           sizeof(float);
   }
-
+  Buffer& raw_volume(RowRange rows) {
+    raw_rows_ = rows;
+    winner_reads(raw_scores_, rows);
+    return raw_scores_.at_least(device_, volume_bytes(rows));
+  }
   void winner_reads(Scratch& scores, RowRange rows) {
-    winner_scores_ = &scores;
+    chosen_by_ = winner_scores_ = &scores;
     score_rows_ = rows;
+  }
+  int least_views() const {
+    return std::max(1, int(std::ceil(setup_.options.score.min_views * float(band_.num_views))));
   }
 
   std::string score_defines() const {
@@ -354,8 +430,7 @@ class OpenClBackend : public Backend {
     Buffer& shifts = shifts_.at_least(
         device_, std::size_t(hypotheses_.count) * band_.num_views * sizeof(BlockShift));
     if (shifts_ref_ != ref)
-      plain_kernel("density_score", "block_shifts",
-                   " " + opencl::defines(tuning_of("density_score")) + score_defines())
+      plain_kernel("block_shifts", "block_shifts", "")
           .set_args(views_buffer_, ref, band_.num_views, hypotheses_, shifts)
           .run(WorkSize(band_.num_views, hypotheses_.count), WorkSize(1, 1));
     shifts_ref_ = ref;
@@ -402,9 +477,10 @@ class OpenClBackend : public Backend {
     auto [it, is_new] = lane_kernels_.try_emplace(entry + options);
     if (is_new) {
       const opencl::Tuning tuning = tuning_of(file);
-      const auto stage = tuning.find("STAGE");
+      const auto stage = tuning.find("STAGE"), units = tuning.find("UNITS");
       it->second = {build(file, entry, opencl::defines(tuning) + options), tuning.at("LANES"),
-                    tuning.at("GROUP"), stage != tuning.end() && stage->second != 0};
+                    tuning.at("GROUP"), units == tuning.end() ? 1 : units->second,
+                    stage != tuning.end() && stage->second != 0};
     }
     return it->second;
   }
@@ -414,11 +490,10 @@ class OpenClBackend : public Backend {
     if (const auto own = overrides_.find(kernel); own != overrides_.end())
       for (const auto& [name, value] : own->second) tuning[name] = value;
     if (tuning.contains("STAGE")) {
-      // Only mean-shift has samples to stage, and only where local memory holds them.
+      // Only where local memory holds them.
       const std::size_t bytes = std::size_t(kStagedVectors) * sampler_.num_views * tuning.at("LANES") *
                                 tuning.at("GROUP") * sizeof(float);
-      const bool once = kernel == "density_score" && setup_.options.score.gradient;
-      if (once || bytes > device_.info().local_memory) tuning["STAGE"] = 0;
+      if (bytes > device_.info().local_memory) tuning["STAGE"] = 0;
     }
     return tuning;
   }
@@ -432,12 +507,15 @@ class OpenClBackend : public Backend {
   BandParams band_{};
   int active_count_ = 0;
   int shifts_ref_ = -1;  ///< The view that shifts_ is for.
+  int planes_ref_ = -1;  ///< The view that planes_buffer_ is for.
   RowRange score_rows_;
   RowRange raw_rows_;                ///< of raw_scores_
   Scratch* winner_scores_ = nullptr;  ///< the scores of score_rows_
+  Scratch* chosen_by_ = nullptr;      ///< path_scores_ after a scan-line step, else the scores
 
-  Buffer table_buffer_, active_buffer_, views_buffer_;
-  Scratch shifts_, packed_, encoded_, band_memory_, raw_scores_, supported_scores_, maps_[6];
+  Buffer table_buffer_, active_buffer_, views_buffer_, planes_buffer_;
+  Scratch shifts_, packed_, encoded_, band_memory_, raw_scores_, supported_scores_, path_scores_,
+      maps_[6];
   std::map<std::string, Kernel> plain_kernels_;
   std::map<std::string, LaneKernel> lane_kernels_;
 };
@@ -452,6 +530,7 @@ std::unique_ptr<Backend> make_tuned_backend(const S& sampler, const BackendSetup
                                             const TuningOverrides& overrides) {
   SamplerTwin twin{std::string(S::kKernelFile),
                    [sampler](int level) { return sampler.at_level(level).view_table(); },
+                   [sampler, range = setup.hypotheses](int ref) { return half_planes(sampler, ref, range); },
                    sampler.num_views()};
   return std::make_unique<OpenClBackend>(std::move(twin), setup, device_selection, overrides);
 }

@@ -22,8 +22,8 @@ struct Scores {
   float at(int u, int v, int i) const { return const_cast<Scores*>(this)->at(u, v, i); }
 };
 
-/// Kernel of colour (and gradient) around `centre`, 0 … 1.
-float kernel(const Sample& sample, const Sample& centre, const ScoreOptions& options);
+/// Kernel of colour around `centre`, 0 … 1: Epanechnikov (eq. 4), or a triangle for the robust score.
+float colour_kernel(const Sample& sample, const Sample& centre, const ScoreOptions& options);
 
 /// Mean radiance: `iterations` mean-shift updates from `start` (eq. 5).
 Sample mean_shift(const std::vector<Sample>& samples, Sample start, const ScoreOptions& options,
@@ -50,10 +50,9 @@ float density_score(const Band& band, const S& sampler, int ref, const Ray& ray,
   const float all = float(sampler.num_views());
   if (float(samples.size()) < std::max(1.0f, std::ceil(options.min_views * all))) return -1;
   const Sample own = band.pixel(ref, int(ray.u), int(ray.v));
-  const Sample centre =
-      options.gradient ? own : mean_shift(samples, own, options, options.mean_shift_iterations);
+  const Sample centre = mean_shift(samples, own, options, options.mean_shift_iterations);
   float density = 0;
-  for (const Sample& sample : samples) density += kernel(sample, centre, options);
+  for (const Sample& sample : samples) density += colour_kernel(sample, centre, options);
   return density / std::max(float(samples.size()), options.floor_views * all);
 }
 

@@ -8,6 +8,8 @@
 #include "gigaray/samplers/any_sampler.h"
 #include "mean_radiance.h"
 #include "propagation.h"
+#include "robust_score.h"
+#include "scanline.h"
 #include "score_support.h"
 #include "slope_fit.h"
 #include "unpack_channels.h"
@@ -47,25 +49,23 @@ class ReferenceBackend : public Backend {
   }
   void density_score(int ref, RowRange rows, const StripMap<std::uint8_t>& todo,
                      const StripMap<HypothesisBounds>& bounds) override {
-    raw_scores_ = Scores(rows, setup_.hypotheses.count, band_.shape.width);
-    for (int v = rows.begin; v < rows.end; ++v) {
-      for (int u = 0; u < band_.shape.width; ++u) {
-        if (!todo.row(v)[u]) continue;
-        const auto [first, last] = bounds.row(v)[u];
-        for (int i = first; i <= last; ++i) {
-          const Ray ray{double(u), double(v), setup_.hypotheses.value(i)};
-          raw_scores_.at(u, v, i) =
-              reference::density_score(band_, sampler_, ref, ray, setup_.options.score);
-        }
-      }
-    }
-    winner_scores_ = &raw_scores_;
+    score_rays(rows, todo, bounds, [&](const Ray& ray) {
+      return reference::density_score(band_, sampler_, ref, ray, setup_.options.score);
+    });
+  }
+  void robust_score(int ref, RowRange rows, const StripMap<std::uint8_t>& todo,
+                    const StripMap<HypothesisBounds>& bounds, bool half_planes) override {
+    std::vector<std::uint8_t> planes;
+    if (half_planes) planes = gigaray::half_planes(sampler_, ref, setup_.hypotheses);
+    score_rays(rows, todo, bounds, [&](const Ray& ray) {
+      return reference::robust_score(band_, sampler_, ref, ray, setup_.options.score, planes);
+    });
   }
   void score_support(int ref, RowRange rows, const StripMap<std::uint8_t>& todo,
                      const StripMap<HypothesisBounds>& bounds) override {
     supported_scores_ = reference::score_support(band_, ref, rows, setup_.options.support, todo,
                                                  bounds, raw_scores_);
-    winner_scores_ = &supported_scores_;
+    winner_takes(supported_scores_);
   }
   void slanted_support(int ref, RowRange rows, const StripMap<std::uint8_t>& todo,
                        const StripMap<HypothesisBounds>& bounds,
@@ -73,17 +73,28 @@ class ReferenceBackend : public Backend {
     supported_scores_ =
         reference::slanted_support(band_, ref, rows, setup_.options.support, setup_.hypotheses, todo,
                                    bounds, slopes, raw_scores_);
-    winner_scores_ = &supported_scores_;
+    winner_takes(supported_scores_);
+  }
+  void scanline(int ref, RowRange rows, const StripMap<std::uint8_t>& todo) override {
+    path_scores_ =
+        reference::scanline(band_, ref, rows, setup_.options.support, todo, supported_scores_);
+    chosen_by_ = &path_scores_;
   }
   void slope_fit(int ref, RowRange rows, const StripMap<float>& in,
                  StripMap<Slope>& slopes) override {
-    reference::slope_fit(band_, ref, rows, setup_.options.support.max_slope, in, slopes);
+    const float step = float(setup_.hypotheses.step());
+    reference::slope_fit(band_, ref, rows, step, step * setup_.options.support.max_slope, in, slopes);
   }
   void winner(RowRange rows, const StripMap<std::uint8_t>& todo,
               const StripMap<HypothesisBounds>& bounds, StripMap<float>& disparity,
               StripMap<float>& contrast) override {
-    reference::winner(rows, *winner_scores_, setup_.hypotheses, setup_.options.winner.refine, todo, bounds,
-                      disparity, contrast);
+    reference::winner(rows, *chosen_by_, *winner_scores_,
+                      chosen_by_ == winner_scores_ ? 0 : kScanlineSearch, setup_.hypotheses,
+                      setup_.options.winner.refine, todo, bounds, disparity, contrast);
+  }
+  void score_of_estimate(RowRange rows, const StripMap<std::uint8_t>& todo,
+                         const StripMap<float>& disparity, StripMap<float>& scores) override {
+    reference::score_of_estimate(rows, *winner_scores_, setup_.hypotheses, todo, disparity, scores);
   }
   std::vector<float> scores_at(int u, int v) override {
     std::vector<float> scores;
@@ -110,14 +121,31 @@ class ReferenceBackend : public Backend {
   }
 
  private:
+  template <class ScoreOf>
+  void score_rays(RowRange rows, const StripMap<std::uint8_t>& todo,
+                  const StripMap<HypothesisBounds>& bounds, ScoreOf score_of) {
+    raw_scores_ = Scores(rows, setup_.hypotheses.count, band_.shape.width);
+    for (int v = rows.begin; v < rows.end; ++v)
+      for (int u = 0; u < band_.shape.width; ++u) {
+        if (!todo.row(v)[u]) continue;
+        const auto [first, last] = bounds.row(v)[u];
+        for (int i = first; i <= last; ++i)
+          raw_scores_.at(u, v, i) =
+              score_of(Ray{double(u), double(v), setup_.hypotheses.value(i)});
+      }
+    winner_takes(raw_scores_);
+  }
+  void winner_takes(const Scores& scores) { chosen_by_ = winner_scores_ = &scores; }
+
   S level0_sampler_;
   S sampler_;
   BackendSetup setup_;
   std::vector<float> table_;
   std::vector<int> active_views_;
   Band band_;
-  Scores raw_scores_, supported_scores_;
+  Scores raw_scores_, supported_scores_, path_scores_;
   const Scores* winner_scores_ = nullptr;
+  const Scores* chosen_by_ = nullptr;  ///< path_scores_ after a scan-line step, else the scores
 };
 
 }  // namespace

@@ -4,8 +4,8 @@
 
 namespace gigaray::reference {
 
-void slope_fit(const Band& band, int ref, RowRange rows, float max_slope, const StripMap<float>& in,
-               StripMap<Slope>& slopes) {
+void slope_fit(const Band& band, int ref, RowRange rows, float step, float max_slope,
+               const StripMap<float>& in, StripMap<Slope>& slopes) {
   constexpr int kStride = 3, kSamples = 5;
   static_assert(kStride * kSamples == kSlopeReach);
   constexpr float kSigmaColour = 0.05f, kSigmaSpace = 8;
@@ -14,7 +14,8 @@ void slope_fit(const Band& band, int ref, RowRange rows, float max_slope, const 
     for (int u = 0; u < width; ++u) {
       Slope slope;
       const float own = in.row(v)[u];
-      for (const float scale : {0.4f, 0.2f, 0.1f}) {
+      for (const float hypotheses : {12.0f, 6.0f, 3.0f}) {
+        const float scale = hypotheses * step;
         // Normal equations of two unknowns; a little weight on "no slope" keeps them solvable.
         float uu = 1e-3f, uv = 0, vv = 1e-3f, ud = 0, vd = 0;
         for (int j = -kSamples; j <= kSamples; ++j) {

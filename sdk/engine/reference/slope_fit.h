@@ -8,7 +8,8 @@ namespace gigaray::reference {
 
 /// Slope of the surface at every estimate: a robust plane through it and those around it. Weights are
 /// Gaussians of colour and distance, times Tukey's biweight of the residual, with ever smaller scale.
-void slope_fit(const Band& band, int ref, RowRange rows, float max_slope, const StripMap<float>& in,
-               StripMap<Slope>& slopes);
+/// step: between hypotheses, the unit of that scale; max_slope: hypothesis units per px.
+void slope_fit(const Band& band, int ref, RowRange rows, float step, float max_slope,
+               const StripMap<float>& in, StripMap<Slope>& slopes);
 
 }  // namespace gigaray::reference

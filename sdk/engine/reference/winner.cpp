@@ -4,7 +4,8 @@
 
 namespace gigaray::reference {
 
-void winner(RowRange rows, const Scores& scores, const HypothesisRange& hypotheses, bool refine,
+void winner(RowRange rows, const Scores& chosen_by, const Scores& scores, int search,
+            const HypothesisRange& hypotheses, bool refine,
             const StripMap<std::uint8_t>& todo, const StripMap<HypothesisBounds>& bounds,
             StripMap<float>& disparity, StripMap<float>& contrast) {
   for (int v = rows.begin; v < rows.end; ++v) {
@@ -20,9 +21,13 @@ void winner(RowRange rows, const Scores& scores, const HypothesisRange& hypothes
         if (score < 0) continue;
         sum += score;
         ++tested;
-        if (best < 0 || score > scores.at(u, v, best)) best = i;
+        if (best < 0 || chosen_by.at(u, v, i) > chosen_by.at(u, v, best)) best = i;
       }
       if (best < 0) continue;
+      const int chosen = best;
+      for (int i = std::max<int>(chosen - search, first); i <= std::min<int>(chosen + search, last);
+           ++i)
+        if (scores.at(u, v, i) > scores.at(u, v, best)) best = i;
       const float peak = scores.at(u, v, best);
       contrast.row(v)[u] = peak - sum / tested;
       float h = float(hypotheses.min) + best * float(hypotheses.step());
@@ -35,6 +40,19 @@ void winner(RowRange rows, const Scores& scores, const HypothesisRange& hypothes
       disparity.row(v)[u] = h;
     }
   }
+}
+
+void score_of_estimate(RowRange rows, const Scores& scores, const HypothesisRange& hypotheses,
+                       const StripMap<std::uint8_t>& todo, const StripMap<float>& disparity,
+                       StripMap<float>& out) {
+  for (int v = rows.begin; v < rows.end; ++v)
+    for (int u = 0; u < scores.width; ++u) {
+      out.row(v)[u] = kNoEstimate;
+      const float h = disparity.row(v)[u];
+      if (!todo.row(v)[u] || std::isnan(h)) continue;
+      const float at = (h - float(hypotheses.min)) / float(hypotheses.step());
+      out.row(v)[u] = scores.at(u, v, std::clamp(int(std::nearbyint(at)), 0, hypotheses.count - 1));
+    }
 }
 
 }  // namespace gigaray::reference

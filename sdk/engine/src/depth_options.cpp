@@ -54,8 +54,17 @@ void DepthOptions::check() const {
   in_range("support.max_slope", support.max_slope, 0.0f, kLarge);
   if (support.slanted && support.radius == 0)
     throw Error(ErrorCode::kInvalidArgument, "support.slanted needs a support.radius above 0");
+  in_range("support.small_price", support.small_price, kTiny, kLarge);
+  in_range("support.jump_price", support.jump_price, kTiny, kLarge);
+  in_range("support.jump_sigma_colour", support.jump_sigma_colour, kTiny, kLarge);
+  if (support.scanline && support.radius == 0)
+    throw Error(ErrorCode::kInvalidArgument, "support.scanline needs a support.radius above 0");
+  if (support.half_planes && !(support.slanted && score.gradient))
+    throw Error(ErrorCode::kInvalidArgument,
+                "support.half_planes needs support.slanted and score.gradient");
   in_range("winner.median_radius", winner.median_radius, 0, 8);
   in_range("winner.median_tolerance", winner.median_tolerance, kTiny, kLarge);
+  in_range("winner.min_relief", winner.min_relief, 0.0f, 1.0f);
   in_range("propagation.tolerance", propagation.tolerance, kTiny, kLarge);
   in_range("propagation.final_median_radius", propagation.final_median_radius, 0, 8);
   if (memory_bytes < 0 || std::isnan(memory_bytes))
@@ -85,11 +94,13 @@ DepthOptions auto_options() {
   options.score.floor_views = 0.25f;
   options.support.radius = 4;
   options.support.slanted = true;
+  options.support.half_planes = true;
+  options.support.scanline = true;
   options.winner.refine = true;
   options.winner.median_radius = 2;
   options.winner.weigh_by_edge = false;
-  // A flat score curve knows nothing: its pixel is left to coarser levels.
-  options.winner.min_confidence = 0.02f;
+  options.winner.min_relief = 0.05f;
+  options.propagation.final_median_radius = 0;  // its own median has been there
   return options;
 }
 

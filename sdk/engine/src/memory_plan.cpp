@@ -22,6 +22,8 @@ constexpr double kProcessBytes = 220 * kMiB;
 /// Most bytes of one device buffer that every OpenCL driver we know grants.
 constexpr double kLargestBuffer = 1800 * kMiB;
 constexpr int kSmallestLevel = 10;  // px
+/// Most for the scores of a strip, where its least number of rows takes less.
+constexpr double kLargestVolume = 512 * kMiB;
 
 double free_memory() {
   std::ifstream info("/proc/meminfo");
@@ -49,11 +51,156 @@ LevelCost cost_of(const LevelShape& shape, const LightField& light_field,
   cost.row_floats = n * (options.score.gradient ? 5 : 3) * StripMap<float>::pitch_for(shape.width) *
                     sizeof(float);
   cost.band_row = cost.row_floats + n * shape.width * std::max(colour_bytes, 3.0);
-  // Rows of the stores that are open beside the band.
+  // Rows of the stores that are open beside the band: pixels, those of the next level, estimates.
   if (in_files)
-    cost.band_row += shape.width * (n * (colour_bytes + 3.0) + active * (kept + sizeof(Search)));
+    cost.band_row += shape.width * (n * (colour_bytes + 3.0) + active * sizeof(PackedEstimate));
   return cost;
 }
+
+/// What a strip of a level needs beside its own rows.
+struct StripNeeds {
+  int halo = 0;      ///< rows above and below together
+  int multiple = 1;  ///< its first row is a multiple of this
+};
+
+StripNeeds strip_needs(const SupportOptions& support, int level) {
+  if (support.scanline && level == 0)
+    return {2 * (support.radius + kScanlineReach), kScanlineBlock};
+  return {2 * support.radius, 1};
+}
+
+double volume_row_bytes(int width, const HypothesisRange& hypotheses) {
+  constexpr int kWidestLanes = 16;
+  return double(width) * ((hypotheses.count + kWidestLanes - 1) / kWidestLanes * kWidestLanes) *
+         sizeof(float);
+}
+
+/// Sizes of a job that don't depend on the limit, and plans for it.
+class Planner {
+ public:
+  Planner(const LightField& light_field, const DepthOptions& options,
+          const HypothesisRange& hypotheses)
+      : light_field_(light_field),
+        options_(options),
+        hypotheses_(hypotheses),
+        sampler_(make_sampler(light_field)),
+        shapes_(level_shapes(light_field.width, light_field.height,
+                             options.propagation.fine_to_coarse)),
+        active_(options.views.empty() ? light_field.num_views() : double(options.views.size())) {
+    const StripNeeds finest = strip_needs(options.support, 0);
+    const double row = volume_row_bytes(light_field.width, hypotheses);
+    least_volume_ = row * (finest.halo + finest.multiple);
+    all_rows_ = row * (light_field.height + finest.halo + finest.multiple);
+  }
+
+  /// Bytes for the scores of a strip. All rows if they fit into a part of the memory: else a strip is
+  /// scored again for the second look.
+  double usual_volume(double limit) const {
+    return std::min(std::clamp(limit / 12, least_volume_, std::max(kLargestVolume, least_volume_)),
+                    all_rows_);
+  }
+  double least_volume() const { return std::min(least_volume_, all_rows_); }
+
+  /// Whatever the bands are.
+  double fixed_bytes(double volume) const {
+    const SupportOptions& support = options_.support;
+    const double copies = 1 + (support.radius > 0) + support.scanline;
+    // Maps of one view: todo, bounds (twice with support), disparity, confidence, median, radiance,
+    // slopes.
+    const double pitch = StripMap<float>::pitch_for(light_field_.width);
+    const double view_maps = pitch * light_field_.height * (support.slanted ? 64 : 40);
+    const double threads = std::min(4u, std::max(1u, std::thread::hardware_concurrency()));
+    const double decoding = threads * 12.0 * light_field_.width * light_field_.height;
+    return kProcessBytes + copies * volume + std::max(view_maps, decoding);
+  }
+
+  std::optional<MemoryPlan> plan(double limit, double volume, bool in_files) const {
+    MemoryPlan result;
+    const double stores = in_files ? 0 : store_bytes(), fixed = fixed_bytes(volume);
+    double peak_band = 0;
+    for (const LevelShape& shape : shapes_) {
+      const StripNeeds needs = strip_needs(options_.support, shape.level);
+      LevelPlan level{shape, 0, halo(shape), 0};
+      const int held = int(volume / volume_row_bytes(shape.width, hypotheses_)) - needs.halo;
+      level.strip_rows = std::max(held / needs.multiple, 1) * needs.multiple;
+      const LevelCost cost = cost_of(shape, light_field_, options_, active_, in_files);
+      const double rows = std::min((limit - fixed - stores) / cost.band_row,
+                                   std::floor(kLargestBuffer / cost.row_floats));
+      level.band_rows = shape.height;
+      while (loaded_rows(shape, level.band_rows) > rows) {
+        // Halving keeps the number of bands, and with it the halo rows, small.
+        const int fewer = level.band_rows > 16 ? (level.band_rows + 1) / 2 : level.band_rows - 1;
+        const int whole = (fewer + needs.multiple - 1) / needs.multiple * needs.multiple;
+        if (whole >= level.band_rows || whole < 1) return std::nullopt;
+        level.band_rows = whole;
+      }
+      peak_band = std::max(peak_band, loaded_rows(shape, level.band_rows) * cost.band_row);
+      result.levels.push_back(level);
+    }
+    result.forecast.memory_bytes = fixed + peak_band + stores;
+    result.forecast.disk_bytes = in_files ? store_bytes() : 0;
+    const int first = result.levels.front().band_rows;
+    result.forecast.bands = (light_field_.height + first - 1) / first;
+    if (in_files)
+      result.work_folder = options_.work_folder.empty()
+                               ? std::filesystem::temp_directory_path().string()
+                               : options_.work_folder;
+    return result;
+  }
+
+  /// The least limit under which there is a plan.
+  double least_limit() const {
+    double peak_band = 0;
+    for (const LevelShape& shape : shapes_) {
+      const LevelCost cost = cost_of(shape, light_field_, options_, active_, true);
+      const int rows =
+          std::min(strip_needs(options_.support, shape.level).multiple, shape.height);
+      peak_band = std::max(peak_band, loaded_rows(shape, rows) * cost.band_row);
+    }
+    return fixed_bytes(least_volume()) + peak_band;
+  }
+
+  /// With all stores and one band in memory.
+  double everything(double volume) const {
+    return fixed_bytes(volume) + store_bytes() +
+           light_field_.height *
+               cost_of(shapes_.front(), light_field_, options_, active_, false).band_row;
+  }
+
+ private:
+  double store_bytes() const {
+    double stores = 0;
+    for (const LevelShape& shape : shapes_)
+      stores += cost_of(shape, light_field_, options_, active_, false).stores;
+    return stores;
+  }
+  /// What the windows reach, a row for gradients, two for interpolation taps.
+  int halo(const LevelShape& shape) const {
+    const StripNeeds needs = strip_needs(options_.support, shape.level);
+    return 3 + std::max({options_.edge.radius + 2, needs.halo / 2, options_.winner.median_radius,
+                         options_.support.slanted ? kSlopeReach : 0, 3});
+  }
+  /// Rows in memory for a band of so many in the middle of the picture.
+  int loaded_rows(const LevelShape& shape, int band_rows) const {
+    const int begin = std::max((shape.height - band_rows) / 2, 0);
+    const RowRange core{begin, std::min(begin + band_rows, shape.height)};
+    return std::visit(
+        [&](const auto& s) {
+          return s.at_level(shape.level)
+              .rows_needed(grown(core, halo(shape), shape.height), hypotheses_, shape.height)
+              .size();
+        },
+        sampler_);
+  }
+
+  const LightField& light_field_;
+  const DepthOptions& options_;
+  const HypothesisRange hypotheses_;
+  const AnySampler sampler_;
+  const std::vector<LevelShape> shapes_;
+  const double active_;  ///< views that get depth
+  double least_volume_ = 0, all_rows_ = 0;
+};
 
 }  // namespace
 
@@ -71,93 +218,22 @@ std::vector<LevelShape> level_shapes(int width, int height, bool fine_to_coarse)
 MemoryPlan plan_memory(const LightField& light_field, const DepthOptions& options,
                        const HypothesisRange& hypotheses) {
   const double limit = options.memory_bytes > 0 ? options.memory_bytes : 0.75 * free_memory();
-  const double active = options.views.empty() ? light_field.num_views() : double(options.views.size());
-  const auto shapes =
-      level_shapes(light_field.width, light_field.height, options.propagation.fine_to_coarse);
-  const AnySampler sampler = make_sampler(light_field);
-  const double pitch = StripMap<float>::pitch_for(light_field.width);
-
-  // Scores of a strip: enough rows to keep the device busy, twice where support makes a second copy.
-  const double volume_row = pitch * hypotheses.count * sizeof(float);
-  const double support_rows = options.support.radius > 0 ? 2 * options.support.radius + 1 : 1;
-  const double copies = options.support.radius > 0 ? 2 : 1;
-  const double volume =
-      std::min(std::clamp(limit / 12, volume_row * support_rows,
-                          std::max(192 * kMiB, volume_row * support_rows)),
-               volume_row * (light_field.height + support_rows));
-  // Maps of one view: todo, bounds (twice with support), disparity, confidence, median, radiance, slopes.
-  const double view_maps = pitch * light_field.height * (options.support.slanted ? 52 : 40);
-  const double decoding = std::min(4u, std::max(1u, std::thread::hardware_concurrency())) * 12.0 *
-                          light_field.width * light_field.height;
-  const double fixed = kProcessBytes + copies * volume + std::max(view_maps, decoding);
-
-  const auto plan = [&](bool in_files) -> std::optional<MemoryPlan> {
-    MemoryPlan result;
-    result.volume_bytes = std::size_t(volume);
-    double stores = 0;
-    for (const LevelShape& shape : shapes)
-      stores += cost_of(shape, light_field, options, active, in_files).stores;
-    double peak_band = 0;
-    for (const LevelShape& shape : shapes) {
-      LevelPlan level;
-      level.shape = shape;
-      // Beyond what the windows reach: a row for gradients, two for interpolation taps.
-      level.halo = 3 + std::max({options.edge.radius + 2, options.support.radius,
-                                 options.winner.median_radius,
-                                 options.support.slanted ? kSlopeReach : 0, 3});
-      const LevelCost cost = cost_of(shape, light_field, options, active, in_files);
-      const double left = limit - fixed - (in_files ? 0 : stores);
-      const double rows =
-          std::min(left / cost.band_row, std::floor(kLargestBuffer / cost.row_floats));
-      const auto loaded_rows = [&](int band_rows) {
-        const int begin = std::max((shape.height - band_rows) / 2, 0);
-        const RowRange core{begin, std::min(begin + band_rows, shape.height)};
-        return std::visit(
-            [&](const auto& s) {
-              return s.at_level(shape.level)
-                  .rows_needed(grown(core, level.halo, shape.height), hypotheses, shape.height)
-                  .size();
-            },
-            sampler);
-      };
-      int band_rows = shape.height;
-      while (band_rows > 0 && loaded_rows(band_rows) > rows) {
-        // Halving keeps the number of bands, and with it the halo rows, small.
-        band_rows = band_rows > 16 ? (band_rows + 1) / 2 : band_rows - 1;
-      }
-      if (band_rows < 1) return std::nullopt;
-      level.band_rows = band_rows;
-      peak_band = std::max(peak_band, loaded_rows(band_rows) * cost.band_row);
-      result.levels.push_back(level);
-    }
-    result.forecast.memory_bytes = fixed + peak_band + (in_files ? 0 : stores);
-    result.forecast.disk_bytes = in_files ? stores : 0;
-    const int first = result.levels.front().band_rows;
-    result.forecast.bands = (light_field.height + first - 1) / first;
-    if (in_files)
-      result.work_folder = options.work_folder.empty()
-                               ? std::filesystem::temp_directory_path().string()
-                               : options.work_folder;
-    return result;
-  };
-
-  double everything = fixed;
-  for (const LevelShape& shape : shapes)
-    everything += cost_of(shape, light_field, options, active, false).stores;
-  everything += light_field.height * cost_of(shapes.front(), light_field, options, active, false).band_row;
+  const Planner planner(light_field, options, hypotheses);
+  const double usual = planner.usual_volume(limit);
 
   // In memory if that leaves bands of a quarter of the picture or more; else rows go to files.
-  auto in_memory = plan(false);
-  auto in_files = plan(true);
+  auto in_memory = planner.plan(limit, usual, false);
+  auto in_files = planner.plan(limit, usual, true);
+  if (!in_memory && !in_files) in_files = planner.plan(limit, planner.least_volume(), true);
   if (!in_memory && !in_files)
     throw Error(ErrorCode::kOutOfMemory,
                 "memory of " + std::to_string(int(limit / kMiB)) +
                     " MiB is too little for one row of all " +
                     std::to_string(light_field.num_views()) + " views; give it at least " +
-                    std::to_string(int((fixed * 1.5) / kMiB)) + " MiB");
+                    std::to_string(int(std::ceil(planner.least_limit() / kMiB))) + " MiB");
   const bool keep = in_memory && (in_memory->forecast.bands <= 4 || !in_files);
   MemoryPlan chosen = keep ? *in_memory : *in_files;
-  chosen.forecast.memory_all_bytes = everything;
+  chosen.forecast.memory_all_bytes = planner.everything(usual);
   return chosen;
 }
 

@@ -14,13 +14,13 @@ struct LevelPlan {
   LevelShape shape;
   int band_rows = 0;  ///< Rows of a band without halo.
   int halo = 0;       ///< Rows around a band that the steps look at in one view.
+  int strip_rows = 0;  ///< Rows whose scores are held at once, without those that support them.
 };
 
 /// How a run fits into the memory it may take.
 struct MemoryPlan {
   std::vector<LevelPlan> levels;
   std::string work_folder;        ///< Where rows are stored; empty: in memory.
-  std::size_t volume_bytes = 0;   ///< Most for the scores of a strip.
   Forecast forecast;
 };
 

@@ -3,6 +3,7 @@
 #include "morphology.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace gigaray {
 namespace {
@@ -62,6 +63,28 @@ void dilate(int radius, int height, StripMap<std::uint8_t>& todo,
       for (int u = 0; u < width; ++u)
         join(todo.row(v)[u], bounds.row(v)[u], along_u.row(y)[u], bounds_u.row(y)[u]);
     }
+}
+
+bool any_set(const StripMap<std::uint8_t>& mask, RowRange rows) {
+  for (int v = rows.begin; v < rows.end; ++v)
+    if (std::any_of(mask.row(v), mask.row(v) + mask.width(), [](auto x) { return x != 0; }))
+      return true;
+  return false;
+}
+
+StripMap<std::uint8_t> beside_jumps(const StripMap<float>& map, float jump, int reach) {
+  const int width = map.width();
+  const RowRange rows = map.rows();
+  StripMap<std::uint8_t> beside(width, rows);
+  const auto differ = [&](float a, float b) { return std::abs(a - b) > jump; };
+  for (int v = rows.begin; v < rows.end; ++v)
+    for (int u = 0; u < width; ++u)
+      beside.row(v)[u] =
+          (u + 1 < width && differ(map.row(v)[u], map.row(v)[u + 1])) ||
+          (v + 1 < rows.end && differ(map.row(v)[u], map.row(v + 1)[u]));
+  StripMap<HypothesisBounds> unused(width, rows);
+  dilate(reach, rows.end, beside, unused);
+  return beside;
 }
 
 }  // namespace gigaray

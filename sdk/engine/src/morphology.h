@@ -15,4 +15,10 @@ StripMap<std::uint8_t> open_mask(const StripMap<std::uint8_t>& mask, RowRange ro
 void dilate(int radius, int height, StripMap<std::uint8_t>& todo,
             StripMap<HypothesisBounds>& bounds);
 
+/// Whether any pixel of the rows is set.
+bool any_set(const StripMap<std::uint8_t>& mask, RowRange rows);
+
+/// Pixels within `reach` (a square) of two neighbouring estimates that differ by more than `jump`.
+StripMap<std::uint8_t> beside_jumps(const StripMap<float>& map, float jump, int reach);
+
 }  // namespace gigaray

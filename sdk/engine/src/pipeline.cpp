@@ -41,7 +41,7 @@ void Pipeline::run() {
       report(double(i) / double(active_.size()));
       ViewMaps maps;
       if (!find_todo(i, maps)) continue;
-      score_view(i, maps);
+      score_view(active_[i], maps);
       accept_view(i, maps);
     }
     if (!is_last_level()) coarsen();
@@ -230,117 +230,13 @@ bool Pipeline::find_todo(int active_idx, ViewMaps& maps) {
   return any;
 }
 
-namespace {
-
-bool anything_todo(const StripMap<std::uint8_t>& todo, RowRange rows) {
-  for (int v = rows.begin; v < rows.end; ++v)
-    if (std::any_of(todo.row(v), todo.row(v) + todo.width(), [](auto x) { return x != 0; }))
-      return true;
-  return false;
-}
-
-}  // namespace
-
-void Pipeline::score_view(int active_idx, ViewMaps& maps) {
-  const LevelShape& shape = levels_[level_].shape;
-  const int radius = options_.support.radius;
-  StripMap<std::uint8_t> score_todo;
-  StripMap<HypothesisBounds> score_bounds;
-  if (radius > 0) {
-    const StageTimer timer(seconds_, "select");
-    score_todo = maps.todo;
-    score_bounds = maps.bounds;
-    dilate(radius, shape.height, score_todo, score_bounds);
-  }
-  const std::size_t row_bytes =
-      std::size_t(maps.todo.pitch()) * hypotheses_.count * sizeof(float);
-  const int strip_rows = std::max(int(plan_.volume_bytes / row_bytes) - 2 * radius, 1);
-  scored_rows_ = {};
-  const auto score_all = [&](const StripMap<Slope>* slopes) {
-    for (const RowRange band : bands()) {
-      if (!anything_todo(maps.todo, band)) continue;
-      load_band(band);
-      for (int v = band.begin; v < band.end; v += strip_rows) {
-        const RowRange strip{v, std::min(v + strip_rows, band.end)};
-        control_.throw_if_cancelled();
-        if (anything_todo(maps.todo, strip))
-          score_strip(active_[active_idx], strip, maps, radius > 0 ? score_todo : maps.todo,
-                      radius > 0 ? score_bounds : maps.bounds, slopes);
-      }
-    }
-  };
-  score_all(nullptr);
-  // Coarser levels test too few hypotheses, and have too few pixels, for a second pass to matter.
-  if (options_.support.slanted && level_ == 0) {
-    const StripMap<Slope> slopes = fit_slopes(active_[active_idx], maps);
-    score_all(&slopes);
-  }
-}
-
-StripMap<Slope> Pipeline::fit_slopes(int view, const ViewMaps& maps) {
-  const LevelShape& shape = levels_[level_].shape;
-  const RowRange all{0, shape.height};
-  StripMap<float> smooth(shape.width, all);
-  StripMap<Slope> slopes(shape.width, all);
-  for (const RowRange band : bands()) {
-    load_band(band);
-    const StageTimer timer(seconds_, "median");
-    backend_.bilateral_median(view, band, options_.winner.median_radius,
-                              options_.winner.median_tolerance, maps.disparity, smooth);
-  }
-  for (const RowRange band : bands()) {
-    if (!anything_todo(maps.todo, band)) continue;
-    load_band(band);
-    const StageTimer timer(seconds_, "slopes");
-    backend_.slope_fit(view, band, smooth, slopes);
-  }
-  return slopes;
-}
-
-void Pipeline::score_strip(int view, RowRange rows, ViewMaps& maps,
-                           const StripMap<std::uint8_t>& score_todo,
-                           const StripMap<HypothesisBounds>& score_bounds,
-                           const StripMap<Slope>* slopes) {
-  const LevelShape& shape = levels_[level_].shape;
-  StripMap<float> disparity(shape.width, rows), contrast(shape.width, rows), edges;
-  const RowRange scored = grown(rows, options_.support.radius, shape.height);
-  if (scored != scored_rows_) {
-    const StageTimer timer(seconds_, "score");
-    backend_.density_score(view, scored, score_todo, score_bounds);
-    scored_rows_ = scored;
-  }
-  if (options_.support.radius > 0) {
-    const StageTimer timer(seconds_, "support");
-    if (slopes)
-      backend_.slanted_support(view, rows, maps.todo, maps.bounds, *slopes);
-    else
-      backend_.score_support(view, rows, maps.todo, maps.bounds);
-  }
-  {
-    const StageTimer timer(seconds_, "winner");
-    backend_.winner(rows, maps.todo, maps.bounds, disparity, contrast);
-  }
-  if (options_.winner.weigh_by_edge) {
-    const StageTimer timer(seconds_, "edges");
-    edges = StripMap<float>(shape.width, rows);
-    backend_.edge_confidence(view, rows, edges);
-  }
-  for (int v = rows.begin; v < rows.end; ++v)
-    for (int u = 0; u < shape.width; ++u) {
-      if (!maps.todo.row(v)[u]) continue;
-      maps.disparity.row(v)[u] = disparity.row(v)[u];
-      maps.confidence.row(v)[u] =
-          contrast.row(v)[u] * (options_.winner.weigh_by_edge ? edges.row(v)[u] : 1.0f);
-    }
-}
-
 void Pipeline::accept_view(int active_idx, ViewMaps& maps) {
   LevelState& state = levels_[level_];
   const int width = state.shape.width, view = active_[active_idx];
   const float threshold =
       is_last_level() ? -std::numeric_limits<float>::infinity() : options_.winner.min_confidence;
   for (const RowRange band : bands()) {
-    if (!anything_todo(maps.todo, band)) continue;
+    if (!any_set(maps.todo, band)) continue;
     load_band(band);
     StripMap<float> accepted(width, band);
     if (options_.winner.median_radius > 0) {

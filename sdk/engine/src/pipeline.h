@@ -50,15 +50,29 @@ class Pipeline {
     StripMap<float> confidence;
   };
 
+  /// One look at the pixels to do, with what was learned from the one before.
+  struct ScorePass {
+    StripMap<std::uint8_t> todo;
+    StripMap<std::uint8_t> score_todo;             ///< and what supports them
+    StripMap<HypothesisBounds> score_bounds;
+    const StripMap<Slope>* slopes = nullptr;       ///< null: support without slopes
+    bool half_planes = false;
+    bool scanline = false;
+  };
+  ScorePass make_pass(const StripMap<std::uint8_t>& todo, const ViewMaps& maps);
+
   void decode();
   void begin_level(int level);
   void find_edges_and_downsample();
   bool find_todo(int active_idx, ViewMaps& maps);
-  void score_view(int active_idx, ViewMaps& maps);
-  /// slopes: null for plain support.
-  void score_strip(int view, RowRange rows, ViewMaps& maps, const StripMap<std::uint8_t>& score_todo,
-                   const StripMap<HypothesisBounds>& score_bounds, const StripMap<Slope>* slopes);
-  StripMap<Slope> fit_slopes(int view, const ViewMaps& maps);
+  void score_view(int view, ViewMaps& maps);
+  void score_strips(int view, const ScorePass& pass, ViewMaps& maps);
+  void score_strip(int view, RowRange rows, const ScorePass& pass, ViewMaps& maps);
+  void take_winners(int view, RowRange rows, const ScorePass& pass, ViewMaps& maps);
+  void step_back(RowRange rows, const ScorePass& pass, ViewMaps& maps);
+  StripMap<float> smooth_disparity(int view, const ViewMaps& maps);
+  StripMap<Slope> fit_slopes(int view, const StripMap<std::uint8_t>& todo,
+                             const StripMap<float>& smooth);
   void accept_view(int active_idx, ViewMaps& maps);
   void coarsen();
 

@@ -236,7 +236,10 @@ ScoreCurve probe(const LightField& light_field, const DepthOptions& options,
       todo.row(y)[x] = 1;
       bounds.row(y)[x] = full;
     }
-  backend->density_score(view_idx, strip, todo, bounds);
+  if (run.options.score.gradient)
+    backend->robust_score(view_idx, strip, todo, bounds, false);
+  else
+    backend->density_score(view_idx, strip, todo, bounds);
   const RowRange row{v, v + 1};
   if (radius > 0) backend->score_support(view_idx, row, todo, bounds);
   StripMap<float> disparity(width, row), contrast(width, row);

@@ -15,8 +15,8 @@ namespace {
 /// As in the tests of parity: rounding, and what mean-shift makes of it.
 double tolerance_of(const std::string& kernel) {
   if (kernel == "bilateral_median") return 0;  // picks a value
-  if (kernel == "density_score" || kernel == "score_support" || kernel == "slanted_support" ||
-      kernel == "winner" || kernel == "mean_radiance" || kernel == "slope_fit")
+  if (kernel == "density_score" || kernel == "robust_score" || kernel == "score_support" ||
+      kernel == "slanted_support" || kernel == "scanline" || kernel == "winner" || kernel == "mean_radiance" || kernel == "slope_fit")
     return 1e-4;
   return 4e-6;
 }
@@ -46,8 +46,8 @@ void append(std::vector<float>& values, const StripMap<T>& map, RowRange rows) {
 
 const std::vector<std::string>& KernelTrial::kernels() {
   static const std::vector<std::string> names = {
-      "unpack_channels", "edge_confidence", "density_score", "score_support",
-      "slope_fit",       "slanted_support", "winner",        "bilateral_median",
+      "unpack_channels", "edge_confidence", "density_score", "robust_score",
+      "score_support",   "slope_fit",       "slanted_support", "scanline", "winner",        "bilateral_median",
       "mean_radiance",   "propagation",     "downsample"};
   return names;
 }
@@ -134,8 +134,14 @@ std::unique_ptr<Backend> KernelTrial::opencl(const std::string& device,
 }
 
 void KernelTrial::prepare(Backend& backend, const std::string& kernel) const {
-  if (kernel == "score_support" || kernel == "slanted_support" || kernel == "winner")
-    backend.density_score(ref_, rows(), todo_, bounds_);
+  if (kernel == "score_support" || kernel == "slanted_support" || kernel == "scanline" ||
+      kernel == "winner") {
+    if (setup_.options.score.gradient)
+      backend.robust_score(ref_, rows(), todo_, bounds_, false);
+    else
+      backend.density_score(ref_, rows(), todo_, bounds_);
+  }
+  if (kernel == "scanline") backend.score_support(ref_, rows(), todo_, bounds_);
 }
 
 void KernelTrial::run(Backend& backend, const std::string& kernel) {
@@ -146,6 +152,10 @@ void KernelTrial::run(Backend& backend, const std::string& kernel) {
     backend.edge_confidence(ref_, rows(), map_);
   else if (kernel == "density_score")
     backend.density_score(ref_, rows(), todo_, bounds_);
+  else if (kernel == "robust_score")
+    backend.robust_score(ref_, rows(), todo_, bounds_, false);
+  else if (kernel == "scanline")
+    backend.scanline(ref_, rows(), todo_);
   else if (kernel == "score_support")
     backend.score_support(ref_, rows(), todo_, bounds_);
   else if (kernel == "slanted_support")
@@ -168,12 +178,16 @@ void KernelTrial::run(Backend& backend, const std::string& kernel) {
 
 std::vector<float> KernelTrial::output(Backend& backend, const std::string& kernel) {
   std::vector<float> values;
-  if (kernel == "density_score" || kernel == "score_support" || kernel == "slanted_support") {
+  if (kernel == "density_score" || kernel == "robust_score" || kernel == "score_support" ||
+      kernel == "slanted_support") {
     for (int v = 0; v < shape_.height; ++v)
       for (int u = 0; u < shape_.width; ++u) {
         const std::vector<float> scores = backend.scores_at(u, v);
         values.insert(values.end(), scores.begin(), scores.end());
       }
+  } else if (kernel == "scanline") {  // what it leaves shows in the winners
+    backend.winner(rows(), todo_, bounds_, map_, second_map_);
+    append(values, map_, rows());
   } else if (kernel == "winner") {
     append(values, map_, rows());
     append(values, second_map_, rows());

@@ -67,6 +67,12 @@ struct Slope {
 
 /// Rows around a pixel that slope_fit looks at.
 inline constexpr int kSlopeReach = 15;
+/// The scan-line step follows columns in blocks of so many rows,
+inline constexpr int kScanlineBlock = 16;
+/// and looks at so many rows on both sides of a block.
+inline constexpr int kScanlineReach = 16;
+/// The winner of a scan-line step is the best score so near to it, hypotheses.
+inline constexpr int kScanlineSearch = 2;
 
 /// One pyramid level.
 struct LevelShape {
@@ -101,25 +107,36 @@ class Backend {
   virtual void load_band(RowRange rows, const void* encoded, BandEncoding encoding) = 0;
 
   virtual void edge_confidence(int ref, RowRange rows, StripMap<float>& confidence) = 0;
-  /// Scores of `rows` where todo; kept until the next call.
+  /// Scores of `rows` where todo, kept until the next call of one of these two: the paper's,
   virtual void density_score(int ref, RowRange rows, const StripMap<std::uint8_t>& todo,
                              const StripMap<HypothesisBounds>& bounds) = 0;
-  /// Makes supported scores for `rows` out of those of the last density_score, which cover
+  /// the robust one of colour and gradient (ScoreOptions::gradient); half_planes: of the best half of
+  /// the views.
+  virtual void robust_score(int ref, RowRange rows, const StripMap<std::uint8_t>& todo,
+                            const StripMap<HypothesisBounds>& bounds, bool half_planes) = 0;
+  /// Makes supported scores for `rows` out of those of the last call above, which cover
   /// support.radius rows more on both sides or end at the edge of the picture.
   virtual void score_support(int ref, RowRange rows, const StripMap<std::uint8_t>& todo,
                              const StripMap<HypothesisBounds>& bounds) = 0;
-  /// The same along the slope of the surface. The last density_score tested all hypotheses.
+  /// The same along the slope of the surface. All hypotheses were tested.
   virtual void slanted_support(int ref, RowRange rows, const StripMap<std::uint8_t>& todo,
                                const StripMap<HypothesisBounds>& bounds,
                                const StripMap<Slope>& slopes) = 0;
+  /// Follows scan-lines over the supported scores; winner() then goes by the result. rows: begin at a
+  /// multiple of kScanlineBlock; supported scores and todo: of kScanlineReach rows more, clipped to the
+  /// picture. All hypotheses were tested.
+  virtual void scanline(int ref, RowRange rows, const StripMap<std::uint8_t>& todo) = 0;
   /// Slope of the surface at every estimate. in: rows grown by kSlopeReach; NaN: no estimate.
   virtual void slope_fit(int ref, RowRange rows, const StripMap<float>& in,
                          StripMap<Slope>& slopes) = 0;
-  /// The best hypothesis by the scores of the last call of the three above.
+  /// The best hypothesis by what the last step on scores left.
   virtual void winner(RowRange rows, const StripMap<std::uint8_t>& todo,
                       const StripMap<HypothesisBounds>& bounds, StripMap<float>& disparity,
                       StripMap<float>& contrast) = 0;
-  /// Scores that winner() sees for one pixel, one per hypothesis; -1 where not tested.
+  /// The same scores at the hypotheses next to estimates; NaN where there is none or nothing to do.
+  virtual void score_of_estimate(RowRange rows, const StripMap<std::uint8_t>& todo,
+                                 const StripMap<float>& disparity, StripMap<float>& scores) = 0;
+  /// Scores (without scan-lines) that winner() sees for one pixel, one per hypothesis; -1 where not tested.
   virtual std::vector<float> scores_at(int u, int v) = 0;
   /// in: rows grown by the radius. tolerance: colour distance; infinite makes it a plain median that
   /// needs no band.

@@ -47,7 +47,17 @@ struct SupportOptions {
   /// A second pass at level 0 with support along the slope that the first pass found: keeps slanted
   /// surfaces exact. Needs radius > 0.
   bool slanted = false;
-  float max_slope = 0.3f;  ///< Steepest slope, hypothesis units per px. ≥ 0
+  float max_slope = 9;  ///< Steepest slope, hypotheses per px. ≥ 0
+  /// Beside silhouettes at level 0, a third look with the best half of the views. Needs `slanted` and
+  /// ScoreOptions::gradient.
+  bool half_planes = false;
+  /// A scan-line step (semi-global matching, Hirschmüller 2008) on the supported scores of level 0:
+  /// a neighbour may differ by two hypotheses at small_price, by any number at jump_price, which falls
+  /// with the colour difference. Needs radius > 0.
+  bool scanline = false;
+  float small_price = 0.05f;        ///< > 0
+  float jump_price = 0.5f;          ///< > 0
+  float jump_sigma_colour = 0.05f;  ///< > 0
 };
 
 /// The winner, its confidence and the bilateral median (eq. 6–8).
@@ -57,6 +67,9 @@ struct WinnerOptions {
   float median_tolerance = 0.1f;   ///< Colour distance ε. > 0
   bool weigh_by_edge = true;       ///< Confidence is Ce · (Smax − mean S), eq. 7; false: without Ce.
   float min_confidence = 0;        ///< Estimates at or below it are left to coarser levels.
+  /// Where the best score is above the mean by no more than this share of itself, all hypotheses score
+  /// alike: such pixels carry no information and get confidence 0. 0 … 1
+  float min_relief = 0;
 };
 
 /// Propagation and fine-to-coarse.

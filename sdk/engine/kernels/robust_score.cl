@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Gigaray authors
+// Robust score: triangle kernels of colour and of the gradient around the reference pixel's own values,
+//   K = (1 - share) Kc + share Kg min(1, 4 Kc),
+// averaged over the views. The gate keeps an occluder of another colour from scoring by its gradient.
+//   band    [row][view][5][stride]: RGB, gx, gy
+//   planes  [view] bit i: the view lies in half-plane i of the camera positions, see half_planes.h
+//   others as for density_score
+// HALF_PLANES 1: the largest of the averages over the 8 half-planes; a point beside a silhouette is
+// hidden from one side only.
+// One work-item per (block of UNITS * LANES pixels, row): what is interpolated between rows serves all
+// pixels of a block.
+
+#ifndef UNITS
+#define UNITS 1
+#endif
+#ifndef HALF_PLANES
+#define HALF_PLANES 0
+#endif
+#if HALF_PLANES
+#define PARTS 8
+#else
+#define PARTS 1
+#endif
+// Vectors beside a block that hold the columns of the last taps.
+#define TAP_VECTORS ((3 + LANES - 1) / LANES)
+
+static inline float4 tap_weights(float f) {
+#if CUBIC
+  return cubic_weights(f);
+#else
+  return (float4)(0.0f, 1.0f - f, f, 0.0f);
+#endif
+}
+
+// Where a view sees a block: units [first, last] of it are inside the picture at least in part.
+typedef struct {
+  int first, last;
+  __global const float *above, *row, *below, *below2;  // channel 0, column of the block's first pixel
+  float4 weights_u, weights_v;
+  int between_columns, between_rows;  // 0: no interpolation needed
+} BlockView;
+
+static inline int see_block(__global const float* band, const BandParams p, int k,
+                            const BlockShift shift, int x, int y, BlockView* view) {
+  view->between_columns = shift.fraction_u > 0.0f;
+  view->between_rows = shift.fraction_v > 0.0f;
+  const int last_column = p.width - 1 - view->between_columns;
+  if (y < 0 || y + view->between_rows > p.height - 1) return 0;
+  if (x > last_column || x + UNITS * LANES <= 0) return 0;
+  view->first = x < 0 ? -x / LANES : 0;
+  view->last = min(UNITS - 1, (last_column - x) / LANES);
+  const size_t next = (size_t)p.num_views * CHANNELS * p.stride;
+  view->row = band_row(band, p, k, y) + x;
+  view->above = y > 0 ? view->row - next : view->row;
+  view->below = y + 1 < p.height ? view->row + next : view->row;
+  view->below2 = y + 2 < p.height ? view->below + next : view->below;
+  view->weights_u = tap_weights(shift.fraction_u);
+  view->weights_v = tap_weights(shift.fraction_v);
+  return 1;
+}
+
+// Samples of a channel (offset: its first float) from `from`, squared differences to `own`, added up.
+#define ADD_DIFFERENCES(from)                                                                  \
+  UNROLL for (int j = 0; j < UNITS; ++j) {                                                     \
+    if (j < view->first || j > view->last) continue;                                           \
+    vfloat value = VLOAD((from) + j * LANES);                                                  \
+    if (view->between_columns)                                                                 \
+      value = view->weights_u.s0 * VLOAD((from) + j * LANES - 1) + view->weights_u.s1 * value + \
+              view->weights_u.s2 * VLOAD((from) + j * LANES + 1) +                             \
+              view->weights_u.s3 * VLOAD((from) + j * LANES + 2);                              \
+    const vfloat difference = value - VLOAD(own + offset + j * LANES);                         \
+    squared[j] += difference * difference;                                                     \
+  }
+
+static inline __attribute__((always_inline)) void add_differences(const BlockView* view,
+                                                                  __global const float* own,
+                                                                  int offset, vfloat* squared) {
+  if (!view->between_rows) {
+    ADD_DIFFERENCES(view->row + offset)
+    return;
+  }
+  float columns[(UNITS + TAP_VECTORS) * LANES];  // from one left of the block on
+  const float4 w = view->weights_v;
+  for (int j = view->first; j <= view->last + TAP_VECTORS; ++j) {
+    const int x = offset + j * LANES - 1;
+    VSTORE(w.s0 * VLOAD(view->above + x) + w.s1 * VLOAD(view->row + x) +
+               w.s2 * VLOAD(view->below + x) + w.s3 * VLOAD(view->below2 + x),
+           columns + j * LANES);
+  }
+  ADD_DIFFERENCES(columns + 1)
+}
+
+__kernel void robust_score(__global const float* band, const BandParams p, const StripParams strip,
+                           __global const BlockShift* shifts, const HypothesisParams hypotheses,
+                           __global const uchar* todo, __global const ushort2* bounds,
+                           __global const uchar* planes, const float bandwidth,
+                           const float gradient_bandwidth, const float gradient_share,
+                           const int min_views, const float floor_views, __global float* scores) {
+  const int u = get_global_id(0) * UNITS * LANES, row = get_global_id(1);
+  if (u >= strip.width) return;
+  const int v = strip.row_begin + row;
+
+  int first = INT_MAX, last = -1;
+  for (int j = 0; j < UNITS && u + j * LANES < strip.width; ++j) {
+    const int2 tested = block_bounds(todo, bounds, strip, row, u + j * LANES);
+    first = min(first, tested.x);
+    last = max(last, tested.y);
+  }
+  if (last < 0) return;
+
+  __global const float* own = band_row(band, p, strip.ref, v) + u;
+  const float inverse_h = 1.0f / bandwidth, inverse_g = 1.0f / gradient_bandwidth;
+  for (int i = first; i <= last; ++i) {
+    __global const BlockShift* shift = shifts + (size_t)i * p.num_views;
+    vfloat sums[PARTS][UNITS], counts[PARTS][UNITS];
+    for (int part = 0; part < PARTS; ++part)
+      for (int j = 0; j < UNITS; ++j) sums[part][j] = counts[part][j] = (vfloat)(0.0f);
+
+    for (int k = 0; k < p.num_views; ++k) {
+      BlockView view;
+      const int x = u + shift[k].whole_u;
+      if (!see_block(band, p, k, shift[k], x, v + shift[k].whole_v, &view)) continue;
+      const int last_column = p.width - 1 - view.between_columns;
+
+      vfloat squared[UNITS], colour[UNITS];
+      UNROLL
+      for (int j = 0; j < UNITS; ++j) squared[j] = (vfloat)(0.0f);
+      for (int c = 0; c < 3; ++c) add_differences(&view, own, c * p.stride, squared);
+      vfloat largest = (vfloat)(0.0f);
+      UNROLL
+      for (int j = 0; j < UNITS; ++j) {
+        if (j < view.first || j > view.last) continue;
+        const vint column = x + j * LANES + VLANES;
+        const vfloat inside =
+            VSELECT((vfloat)(0.0f), (vfloat)(1.0f), column >= 0 && column <= last_column);
+        colour[j] = inside * max(1.0f - sqrt(squared[j]) * inverse_h, (vfloat)(0.0f));
+        largest = max(largest, colour[j]);
+        UNROLL
+        for (int part = 0; part < PARTS; ++part)
+          if (PARTS == 1 || planes[k] >> part & 1) counts[part][j] += inside;
+      }
+      // Another colour is an occluder: its gradient is not asked for.
+      if (!(largest_lane(largest) > 0.0f)) continue;
+
+      UNROLL
+      for (int j = 0; j < UNITS; ++j) squared[j] = (vfloat)(0.0f);
+      for (int c = 3; c < CHANNELS; ++c) add_differences(&view, own, c * p.stride, squared);
+      UNROLL
+      for (int j = 0; j < UNITS; ++j) {
+        if (j < view.first || j > view.last) continue;
+        const vfloat gradient = max(1.0f - sqrt(squared[j]) * inverse_g, (vfloat)(0.0f));
+        const vfloat kernel_value = (1.0f - gradient_share) * colour[j] +
+                                    gradient_share * gradient * min(4.0f * colour[j], (vfloat)(1.0f));
+        UNROLL
+        for (int part = 0; part < PARTS; ++part)
+          if (PARTS == 1 || planes[k] >> part & 1) sums[part][j] += kernel_value;
+      }
+    }
+
+    for (int j = 0; j < UNITS && u + j * LANES < strip.width; ++j) {
+      vfloat score = score_of(sums[0][j], counts[0][j], min_views, floor_views);
+      for (int part = 1; part < PARTS; ++part)
+        score = max(score, score_of(sums[part][j], counts[part][j], min_views, floor_views));
+      store_scores(scores + score_index(strip, hypotheses, row, u + j * LANES), hypotheses, i,
+                   strip.width - u - j * LANES, score);
+    }
+  }
+}

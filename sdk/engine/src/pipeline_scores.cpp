@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Gigaray authors
+// How a view gets its winners: up to three looks at the pixels to do, each strip by strip.
+#include <algorithm>
+#include <cmath>
+
+#include "morphology.h"
+#include "pipeline.h"
+#include "stage_timer.h"
+
+namespace gigaray {
+namespace {
+
+// A silhouette, and what is farther than it, in hypotheses: a difference that the outermost views see.
+constexpr float kJump = 7, kFarther = 3;
+// Where the nearer surface can hide a point from some views, px.
+constexpr int kBesideJump = 10;
+// By how much the score of the best half of the views must exceed that of the estimate so far.
+constexpr float kLead = 0.01f;
+
+}  // namespace
+
+Pipeline::ScorePass Pipeline::make_pass(const StripMap<std::uint8_t>& todo, const ViewMaps& maps) {
+  const StageTimer timer(seconds_, "select");
+  ScorePass pass{todo, todo, maps.bounds};
+  if (options_.support.radius > 0)
+    dilate(options_.support.radius, levels_[level_].shape.height, pass.score_todo,
+           pass.score_bounds);
+  return pass;
+}
+
+void Pipeline::score_view(int view, ViewMaps& maps) {
+  scored_rows_ = {};
+  // Coarser levels have too few pixels, and test too few hypotheses, for more than one look.
+  const bool finest = level_ == 0;
+  ScorePass pass = make_pass(maps.todo, maps);
+  pass.scanline = finest && options_.support.scanline;
+  score_strips(view, pass, maps);
+  if (!finest || !options_.support.slanted) return;
+
+  const StripMap<float> smooth = smooth_disparity(view, maps);
+  const StripMap<Slope> slopes = fit_slopes(view, maps.todo, smooth);
+  pass.slopes = &slopes;
+  score_strips(view, pass, maps);
+  if (!options_.support.half_planes) return;
+
+  const RowRange all{0, levels_[level_].shape.height};
+  StripMap<std::uint8_t> beside =
+      beside_jumps(smooth, kJump * float(hypotheses_.step()), kBesideJump);
+  for (int v = all.begin; v < all.end; ++v)
+    for (int u = 0; u < beside.width(); ++u) beside.row(v)[u] &= maps.todo.row(v)[u];
+  if (!any_set(beside, all)) return;
+  pass = make_pass(beside, maps);
+  pass.slopes = &slopes;
+  pass.half_planes = true;
+  scored_rows_ = {};
+  score_strips(view, pass, maps);
+}
+
+void Pipeline::score_strips(int view, const ScorePass& pass, ViewMaps& maps) {
+  const int strip_rows = plan_.levels[level_].strip_rows;
+  for (const RowRange band : bands()) {
+    if (!any_set(pass.todo, band)) continue;
+    load_band(band);
+    for (int v = band.begin; v < band.end; v += strip_rows) {
+      const RowRange strip{v, std::min(v + strip_rows, band.end)};
+      control_.throw_if_cancelled();
+      if (any_set(pass.todo, strip)) score_strip(view, strip, pass, maps);
+    }
+  }
+}
+
+void Pipeline::score_strip(int view, RowRange rows, const ScorePass& pass, ViewMaps& maps) {
+  const int height = levels_[level_].shape.height;
+  const RowRange supported = grown(rows, pass.scanline ? kScanlineReach : 0, height);
+  const RowRange scored = grown(supported, options_.support.radius, height);
+  if (scored != scored_rows_) {
+    const StageTimer timer(seconds_, "score");
+    if (options_.score.gradient)
+      backend_.robust_score(view, scored, pass.score_todo, pass.score_bounds, pass.half_planes);
+    else
+      backend_.density_score(view, scored, pass.score_todo, pass.score_bounds);
+    scored_rows_ = scored;
+  }
+  if (options_.support.radius > 0) {
+    const StageTimer timer(seconds_, "support");
+    if (pass.slopes)
+      backend_.slanted_support(view, supported, pass.todo, maps.bounds, *pass.slopes);
+    else
+      backend_.score_support(view, supported, pass.todo, maps.bounds);
+  }
+  if (pass.scanline) {
+    const StageTimer timer(seconds_, "scanline");
+    backend_.scanline(view, rows, pass.todo);
+  }
+  if (pass.half_planes)
+    step_back(rows, pass, maps);
+  else
+    take_winners(view, rows, pass, maps);
+}
+
+void Pipeline::take_winners(int view, RowRange rows, const ScorePass& pass, ViewMaps& maps) {
+  const int width = levels_[level_].shape.width;
+  StripMap<float> disparity(width, rows), contrast(width, rows), edges;
+  {
+    const StageTimer timer(seconds_, "winner");
+    backend_.winner(rows, pass.todo, maps.bounds, disparity, contrast);
+  }
+  const float min_relief = options_.winner.min_relief;
+  if (min_relief > 0) {
+    const StageTimer timer(seconds_, "winner");
+    StripMap<float> best(width, rows);
+    backend_.score_of_estimate(rows, pass.todo, disparity, best);
+    for (int v = rows.begin; v < rows.end; ++v)
+      for (int u = 0; u < width; ++u)
+        if (!(contrast.row(v)[u] > min_relief * best.row(v)[u])) contrast.row(v)[u] = 0;
+  }
+  if (options_.winner.weigh_by_edge) {
+    const StageTimer timer(seconds_, "edges");
+    edges = StripMap<float>(width, rows);
+    backend_.edge_confidence(view, rows, edges);
+  }
+  for (int v = rows.begin; v < rows.end; ++v)
+    for (int u = 0; u < width; ++u) {
+      if (!pass.todo.row(v)[u]) continue;
+      // Too few views saw it under any hypothesis: on the last level the farther bound has to do.
+      if (std::isnan(disparity.row(v)[u]) && is_last_level())
+        disparity.row(v)[u] = float(hypotheses_.value(maps.bounds.row(v)[u].first));
+      maps.disparity.row(v)[u] = disparity.row(v)[u];
+      maps.confidence.row(v)[u] =
+          contrast.row(v)[u] * (options_.winner.weigh_by_edge ? edges.row(v)[u] : 1.0f);
+    }
+}
+
+// Beside a silhouette half of the views see the nearer surface, and its score wins there too: where the
+// best half of the views likes something farther better, that is the answer.
+void Pipeline::step_back(RowRange rows, const ScorePass& pass, ViewMaps& maps) {
+  const StageTimer timer(seconds_, "winner");
+  const int width = levels_[level_].shape.width;
+  const float farther = kFarther * float(hypotheses_.step());
+  StripMap<float> disparity(width, rows), contrast(width, rows), own(width, rows), best(width, rows);
+  backend_.winner(rows, pass.todo, maps.bounds, disparity, contrast);
+  backend_.score_of_estimate(rows, pass.todo, disparity, best);
+  backend_.score_of_estimate(rows, pass.todo, maps.disparity, own);
+  for (int v = rows.begin; v < rows.end; ++v)
+    for (int u = 0; u < width; ++u) {
+      // NaN where there is nothing to do: no comparison holds.
+      if (!(disparity.row(v)[u] < maps.disparity.row(v)[u] - farther)) continue;
+      if (!(best.row(v)[u] >= own.row(v)[u] + kLead)) continue;
+      maps.disparity.row(v)[u] = disparity.row(v)[u];
+      maps.confidence.row(v)[u] = contrast.row(v)[u];
+    }
+}
+
+StripMap<float> Pipeline::smooth_disparity(int view, const ViewMaps& maps) {
+  const LevelShape& shape = levels_[level_].shape;
+  StripMap<float> smooth(shape.width, {0, shape.height});
+  for (const RowRange band : bands()) {
+    load_band(band);
+    const StageTimer timer(seconds_, "median");
+    backend_.bilateral_median(view, band, options_.winner.median_radius,
+                              options_.winner.median_tolerance, maps.disparity, smooth);
+  }
+  return smooth;
+}
+
+StripMap<Slope> Pipeline::fit_slopes(int view, const StripMap<std::uint8_t>& todo,
+                                     const StripMap<float>& smooth) {
+  const LevelShape& shape = levels_[level_].shape;
+  StripMap<Slope> slopes(shape.width, {0, shape.height});
+  for (const RowRange band : bands()) {
+    if (!any_set(todo, band)) continue;
+    load_band(band);
+    const StageTimer timer(seconds_, "slopes");
+    backend_.slope_fit(view, band, smooth, slopes);
+  }
+  return slopes;
+}
+
+}  // namespace gigaray
