@@ -15,8 +15,12 @@ import json
 import pathlib
 import re
 import subprocess
+import sys
 
 HERE = pathlib.Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE / "accuracy"))
+import tables  # noqa: E402
+
 AGGREGATES = ["min", "median", "max", "mean", "stddev", "cv"]
 KEPT_CONTEXT = ["date", "num_cpus", "mhz_per_cpu", "load_avg", "gigaray_version", "device",
                 "device_type", "compute_units", "platform", "driver"]
@@ -98,14 +102,6 @@ def end_to_end_table(report):
                   "seconds per stage, median"], rows)
 
 
-def accuracy_table(report):
-    metrics = ["BadPix0.07", "BadPix0.03", "BadPix0.01", "MSEx100"]
-    return table(["scene", "preset", "views", *metrics, "seconds", "peak MiB"],
-                 [[r["scene"], r["preset"], str(r["views"]),
-                   *["-" if r[m] is None else f"{r[m]:.2f}" for m in metrics],
-                   f"{r['seconds']:.1f}", f"{r['peak_memory_mib']:.0f}"] for r in report["rows"]])
-
-
 def renew(readme, marker, text):
     begin, end = f"<!-- {marker} -->", f"<!-- end of {marker} -->"
     before, rest = readme.split(begin)
@@ -143,7 +139,7 @@ def main():
         report = json.loads(arguments.accuracy.read_text())
         folder = folder or HERE / "results"
         (folder / "accuracy.json").write_text(json.dumps(report, indent=1) + "\n")
-        readme = renew(readme, "accuracy", accuracy_table(report))
+        readme = renew(readme, "accuracy", tables.report(report))
     (HERE / "README.md").write_text(readme)
 
 
