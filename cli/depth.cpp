@@ -63,6 +63,7 @@ ordered_json options_json(const Reconstruction& result) {
           {"hypotheses", h.count},
           {"linear_rgb", o.score.linear_rgb},
           {"gradient", o.score.gradient},
+          {"smoothing", o.score.smoothing},
           {"bandwidth", o.score.bandwidth},
           {"gradient_bandwidth", o.score.gradient_bandwidth},
           {"mean_shift_iterations", o.score.mean_shift_iterations},

@@ -217,7 +217,8 @@ TEST_F(DepthCommand, LittleMemoryGivesTheSameBits) {
   depth("-o much --views 2,10-12 --memory 6");
   EXPECT_EQ(report("much").at("bands"), 1);
   EXPECT_EQ(maps_of("little"), maps_of("much"));
-  expect_refusal("depth made -o none --memory " + std::to_string(too_little), 1, "memory of",
+  // What info forecasts is an upper bound: the pictures turn out to be clean.
+  expect_refusal("depth made -o none --memory " + std::to_string(0.8 * too_little), 1, "memory of",
                  "give it at least");
 }
 

@@ -92,13 +92,13 @@ class ParityLanes : public testing::Test {
     const auto todo = bench.random_todo(rows);
     const auto bounds = bench.random_bounds(rows);
     for (Backend* backend : {bench.reference.get(), bench.opencl.get()})
-      backend->robust_score(0, around, all, full, false);
+      backend->robust_score(0, around, all, full, ScoreViews::kAll);
     expect_within("robust score" + lanes, compare_scores(bench, around, all, full, 1), kScore);
     for (Backend* backend : {bench.reference.get(), bench.opencl.get()})
       backend->score_support(0, rows, todo, bounds);
     expect_within("score support" + lanes, compare_scores(bench, rows, todo, bounds, 1), kScore);
     for (Backend* backend : {bench.reference.get(), bench.opencl.get()})
-      backend->robust_score(0, around, all, full, true);
+      backend->robust_score(0, around, all, full, ScoreViews::kHalfPlanes);
     expect_within("robust score, half-planes" + lanes, compare_scores(bench, around, all, full, 1),
                   kScore);
     const auto slopes = bench.random_slopes(rows);

@@ -60,7 +60,7 @@ class Parity : public testing::Test {
       const bool is_reference = backend == bench.reference.get();
       StripMap<float>& found = is_reference ? expected : actual;
       StripMap<float> contrast(bench.width(), bench.rows());
-      backend->robust_score(2, scored, all, full, false);
+      backend->robust_score(2, scored, all, full, ScoreViews::kAll);
       backend->score_support(2, supported, todo, full);
       backend->scanline(2, bench.rows(), todo);
       backend->winner(bench.rows(), todo, full, found, contrast);
@@ -153,11 +153,11 @@ TYPED_TEST(Parity, RobustScores) {
   struct Variant {
     const char* stage;
     float gradient_share;
-    bool half_planes;
+    ScoreViews views;
   };
-  const Variant variants[] = {{"robust score", 0.7f, false},
-                              {"robust score, gradient alone", 1.0f, false},
-                              {"robust score, half-planes", 0.7f, true}};
+  const Variant variants[] = {{"robust score", 0.7f, ScoreViews::kAll},
+                              {"robust score, gradient alone", 1.0f, ScoreViews::kAll},
+                              {"robust score, half-planes", 0.7f, ScoreViews::kHalfPlanes}};
   for (const Variant& variant : variants)
     for (const ParityCase& size : parity_cases()) {
       DepthOptions options = auto_options();
@@ -169,11 +169,67 @@ TYPED_TEST(Parity, RobustScores) {
       const auto bounds = bench.random_bounds(bench.rows());
       for (const int ref : {3, 0}) {
         for (Backend* backend : {bench.reference.get(), bench.opencl.get()})
-          backend->robust_score(ref, bench.rows(), todo, bounds, variant.half_planes);
+          backend->robust_score(ref, bench.rows(), todo, bounds, variant.views);
         this->expect_within(variant.stage, compare_scores(bench, bench.rows(), todo, bounds, 1),
                             kScore);
       }
     }
+}
+
+TYPED_TEST(Parity, FirstLookAtSomeOfManyViews) {
+  for (const ParityCase& size : {ParityCase{33, 9, {2, 6}}, ParityCase{17, 5, {0, 5}}}) {
+    const auto views = ParityRig<TypeParam>::kKind == LightFieldKind::k3D ? row_of_views(61)
+                                                                        : grid_of_views(7, 9);
+    ParityBench<TypeParam> bench(size, auto_options(), views, {-0.1, 0.2, 7});
+    const auto todo = bench.all_todo(bench.rows());
+    const auto bounds = bench.full_bounds(bench.rows());
+    for (Backend* backend : {bench.reference.get(), bench.opencl.get()})
+      backend->robust_score(30, bench.rows(), todo, bounds, ScoreViews::kSome);
+    this->expect_within("robust score, some views",
+                        compare_scores(bench, bench.rows(), todo, bounds, 1), kScore);
+  }
+}
+
+TYPED_TEST(Parity, RayMeansAndWhatIsScoredAgainstThem) {
+  for (const ParityCase& size : parity_cases()) {
+    DepthOptions options = auto_options();
+    options.score.bandwidth = 0.1f;
+    options.score.gradient_bandwidth = 0.02f;
+    options.support.sigma_colour = 0.1f;
+    ParityBench<TypeParam> bench(size, options);
+    const int channels = bench.reference->channels();
+    const RowRange around = bench.around(options.support.radius + 1);
+    const auto disparity = bench.random_disparity(around, 0.9);
+    StripMap<float> expected(bench.width(), {channels * around.begin, channels * around.end});
+    StripMap<float> actual = expected;
+    bench.reference->ray_mean(2, around, disparity, expected);
+    bench.opencl->ray_mean(2, around, disparity, actual);
+    Difference difference;
+    for (int v = around.begin; v < around.end; ++v)
+      for (int c = 0; c < 3; ++c)
+        for (int u = 0; u < bench.width(); ++u)
+          difference.add(expected.row(channels * v + c)[u], actual.row(channels * v + c)[u]);
+    this->expect_within("ray mean", difference, kRadiance);
+
+    const auto all = bench.all_todo(around);
+    const auto full = bench.full_bounds(around);
+    for (Backend* backend : {bench.reference.get(), bench.opencl.get()}) {
+      backend->replace_reference(around, expected);
+      backend->robust_score(2, around, all, full, ScoreViews::kAll);
+    }
+    this->expect_within("robust score against means",
+                        compare_scores(bench, bench.rows(), all, full, 1), kScore);
+    for (Backend* backend : {bench.reference.get(), bench.opencl.get()})
+      backend->score_support(2, bench.rows(), all, full);
+    this->expect_within("score support by means",
+                        compare_scores(bench, bench.rows(), all, full, 1), kScore);
+    for (Backend* backend : {bench.reference.get(), bench.opencl.get()}) {
+      backend->restore_reference();
+      backend->robust_score(2, around, all, full, ScoreViews::kAll);
+    }
+    this->expect_within("robust score, restored", compare_scores(bench, around, all, full, 1),
+                        kScore);
+  }
 }
 
 TYPED_TEST(Parity, RegularRigs) {
@@ -190,7 +246,7 @@ TYPED_TEST(Parity, RegularRigs) {
         const auto bounds = bench.full_bounds(bench.rows());
         for (Backend* backend : {bench.reference.get(), bench.opencl.get()}) {
           if (options.score.gradient)
-            backend->robust_score(1, bench.rows(), todo, bounds, false);
+            backend->robust_score(1, bench.rows(), todo, bounds, ScoreViews::kAll);
           else
             backend->density_score(1, bench.rows(), todo, bounds);
         }
@@ -211,7 +267,7 @@ TYPED_TEST(Parity, SupportedScores) {
     const auto bounds = bench.random_bounds(bench.rows());
     const auto slopes = bench.random_slopes(bench.rows());
     for (Backend* backend : {bench.reference.get(), bench.opencl.get()}) {
-      backend->robust_score(0, around, all, full, false);
+      backend->robust_score(0, around, all, full, ScoreViews::kAll);
       backend->score_support(0, bench.rows(), todo, bounds);
     }
     this->expect_within("score support", compare_scores(bench, bench.rows(), todo, bounds, 1),
@@ -257,9 +313,9 @@ TYPED_TEST(Parity, Winners) {
       const auto bounds = bench.random_bounds(rows);
       StripMap<float> expected(bench.width(), rows), actual = expected;
       StripMap<float> expected_lead = expected, actual_lead = expected;
-      bench.reference->robust_score(3, rows, todo, bounds, false);
+      bench.reference->robust_score(3, rows, todo, bounds, ScoreViews::kAll);
       bench.reference->winner(rows, todo, bounds, expected, expected_lead);
-      bench.opencl->robust_score(3, rows, todo, bounds, false);
+      bench.opencl->robust_score(3, rows, todo, bounds, ScoreViews::kAll);
       bench.opencl->winner(rows, todo, bounds, actual, actual_lead);
 
       // Two hypotheses that score alike, or three on a flat top, are told apart by rounding: the

@@ -3,7 +3,10 @@
 // What `auto` adds to the paper's steps, in the reference: half-planes of views and scan-lines.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "gigaray/samplers/any_sampler.h"
+#include "reference/ray_mean.h"
 #include "reference/robust_score.h"
 #include "reference/scanline.h"
 #include "support/analytic_field.h"
@@ -43,6 +46,42 @@ TEST(HalfPlanes, HoldTheViewsOnOneSideAndThoseOnTheirBorder) {
   EXPECT_EQ((row[0] & 1) + (row[4] & 1), 1);
 }
 
+TEST(SomeViews, AreAllOfFewAndAboutTwentyFiveOfMany) {
+  const auto count = [](const std::vector<std::uint8_t>& members) {
+    return std::count(members.begin(), members.end(), 1);
+  };
+  EXPECT_EQ(count(some_views(33, 16)), 33);
+  for (const int views : {41, 81, 100, 289}) {
+    for (const int ref : {0, 7, views / 2}) {
+      const auto members = some_views(views, ref);
+      EXPECT_EQ(members[ref], 1);
+      EXPECT_NEAR(double(count(members)), kSomeViews, 4);
+      // Spread over the views: every quarter of them has its share.
+      for (int i = 0; i < 4; ++i)
+        EXPECT_GE(std::count(members.begin() + i * views / 4, members.begin() + (i + 1) * views / 4, 1),
+                  4);
+    }
+  }
+}
+
+TEST(RayMean, TakesTheNoiseOffButNotTheOccluder) {
+  // Eight views agree on 0.5, the reference view is off by 0.01, two show an occluder.
+  const auto views = row_of_views(11);
+  Band band = flat_band(views, 21, 3);
+  for (int v = 0; v < 3; ++v) {
+    for (int c = 0; c < 3; ++c) std::fill_n(band.plane(5, v, c), 21, 0.51f);
+    for (const int view : {0, 1}) std::fill_n(band.plane(view, v, 0), 21, 0.9f);
+  }
+  ScoreOptions score = auto_options().score;
+  score.bandwidth = 0.1f;
+  StripMap<float> disparity(21, {0, 3}), means(21, {0, 15});
+  disparity.row(1)[3] = kNoEstimate;
+  reference::ray_mean(band, EpiSampler(views), 5, {0, 3}, score, disparity, means);
+  const float weight = 1 - 0.01f * std::sqrt(3.0f) / score.bandwidth;
+  EXPECT_NEAR(means.row(5)[10], (8 * weight * 0.5f + 0.51f) / (8 * weight + 1), 1e-5);
+  EXPECT_EQ(means.row(5)[3], 0.51f) << "no estimate: it stays as it is";
+}
+
 TEST(RobustScore, OfTheBestHalfPlaneIgnoresAnOccluderOnOneSide) {
   const auto views = grid_of_views(5, 5);
   const GridSampler sampler(views);
@@ -54,8 +93,12 @@ TEST(RobustScore, OfTheBestHalfPlaneIgnoresAnOccluderOnOneSide) {
   const ScoreOptions score = auto_options().score;
   const Ray ray{15, 15, 0.5};
   const auto planes = half_planes(sampler, 12, {-1, 1, 3});
-  EXPECT_NEAR(reference::robust_score(band, sampler, 12, ray, score, {}), 15.0 / 25, kRounding);
-  EXPECT_NEAR(reference::robust_score(band, sampler, 12, ray, score, planes), 1, kRounding);
+  const std::vector<std::uint8_t> all(25, 1);
+  const auto own = band.pixel(12, 15, 15);
+  EXPECT_NEAR(reference::robust_score(band, sampler, 12, ray, own, score, all, 1), 15.0 / 25,
+              kRounding);
+  EXPECT_NEAR(reference::robust_score(band, sampler, 12, ray, own, score, planes, kHalfPlanes), 1,
+              kRounding);
 }
 
 TEST(RobustScore, AnOccluderDoesNotScoreByItsGradient) {

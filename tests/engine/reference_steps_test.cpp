@@ -79,8 +79,9 @@ TEST(ReferenceScore, IsOneWhereAllViewsSeeTheSame) {
   for (const double h : {-1.0, 0.0, 0.77}) {
     EXPECT_NEAR(reference::density_score(flat, sampler, 2, {15, 1, h}, paper_score()), 1,
                 kRounding);
-    EXPECT_NEAR(reference::robust_score(flat, sampler, 2, {15, 1, h}, auto_options().score, {}), 1,
-                kRounding);
+    EXPECT_NEAR(reference::robust_score(flat, sampler, 2, {15, 1, h}, flat.pixel(2, 15, 1),
+                                        auto_options().score, std::vector<std::uint8_t>(5, 1), 1),
+                1, kRounding);
   }
 }
 

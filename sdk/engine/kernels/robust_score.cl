@@ -4,7 +4,9 @@
 //   K = (1 - share) Kc + share Kg min(1, 4 Kc),
 // averaged over the views. The gate keeps an occluder of another colour from scoring by its gradient.
 //   band    [row][view][5][stride]: RGB, gx, gy
-//   planes  [view] bit i: the view lies in half-plane i of the camera positions, see half_planes.h
+//   members [view] bit 0: the view counts; HALF_PLANES 1: bit i: it lies in half-plane i of the camera
+//           positions (view_sets.h)
+//   own     the reference view: view own_view of a band with parameters own_p
 //   others as for density_score
 // HALF_PLANES 1: the largest of the averages over the 8 half-planes; a point beside a silhouette is
 // hidden from one side only.
@@ -92,9 +94,10 @@ static inline __attribute__((always_inline)) void add_differences(const BlockVie
 }
 
 __kernel void robust_score(__global const float* band, const BandParams p, const StripParams strip,
-                           __global const BlockShift* shifts, const HypothesisParams hypotheses,
-                           __global const uchar* todo, __global const ushort2* bounds,
-                           __global const uchar* planes, const float bandwidth,
+                           __global const float* own_band, const BandParams own_p,
+                           const int own_view, __global const BlockShift* shifts,
+                           const HypothesisParams hypotheses, __global const uchar* todo,
+                           __global const ushort2* bounds, __global const uchar* members, const float bandwidth,
                            const float gradient_bandwidth, const float gradient_share,
                            const int min_views, const float floor_views, __global float* scores) {
   const int u = get_global_id(0) * UNITS * LANES, row = get_global_id(1);
@@ -109,7 +112,7 @@ __kernel void robust_score(__global const float* band, const BandParams p, const
   }
   if (last < 0) return;
 
-  __global const float* own = band_row(band, p, strip.ref, v) + u;
+  __global const float* own = band_row(own_band, own_p, own_view, v) + u;
   const float inverse_h = 1.0f / bandwidth, inverse_g = 1.0f / gradient_bandwidth;
   for (int i = first; i <= last; ++i) {
     __global const BlockShift* shift = shifts + (size_t)i * p.num_views;
@@ -118,6 +121,7 @@ __kernel void robust_score(__global const float* band, const BandParams p, const
       for (int j = 0; j < UNITS; ++j) sums[part][j] = counts[part][j] = (vfloat)(0.0f);
 
     for (int k = 0; k < p.num_views; ++k) {
+      if (!members[k]) continue;
       BlockView view;
       const int x = u + shift[k].whole_u;
       if (!see_block(band, p, k, shift[k], x, v + shift[k].whole_v, &view)) continue;
@@ -138,7 +142,7 @@ __kernel void robust_score(__global const float* band, const BandParams p, const
         largest = max(largest, colour[j]);
         UNROLL
         for (int part = 0; part < PARTS; ++part)
-          if (PARTS == 1 || planes[k] >> part & 1) counts[part][j] += inside;
+          if (PARTS == 1 || members[k] >> part & 1) counts[part][j] += inside;
       }
       // Another colour is an occluder: its gradient is not asked for.
       if (!(largest_lane(largest) > 0.0f)) continue;
@@ -154,7 +158,7 @@ __kernel void robust_score(__global const float* band, const BandParams p, const
                                     gradient_share * gradient * min(4.0f * colour[j], (vfloat)(1.0f));
         UNROLL
         for (int part = 0; part < PARTS; ++part)
-          if (PARTS == 1 || planes[k] >> part & 1) sums[part][j] += kernel_value;
+          if (PARTS == 1 || members[k] >> part & 1) sums[part][j] += kernel_value;
       }
     }
 

@@ -10,7 +10,7 @@
 #include "opencl/buffer.h"
 #include "opencl/opencl_backend.h"
 #include "opencl/program_cache.h"
-#include "src/half_planes.h"
+#include "src/view_sets.h"
 
 namespace gigaray {
 namespace {
@@ -146,6 +146,7 @@ class OpenClBackend : public Backend {
   }
 
   void load_band(RowRange rows, const void* encoded, BandEncoding encoding) override {
+    restore_reference();
     band_.row_begin = rows.begin;
     band_.row_end = rows.end;
     const int bits = encoding == BandEncoding::kBits8 ? 8 : encoding == BandEncoding::kBits16 ? 16 : 32;
@@ -186,7 +187,7 @@ class OpenClBackend : public Backend {
     LaneKernel& kernel = lane_kernel("density_score", options);
     Buffer& scores = raw_volume(rows);
     const float floor_views = score.floor_views * float(band_.num_views);
-    const int min_views = least_views();
+    const int min_views = least_views(band_.num_views);
     const LocalMemory staged =
         kernel.vectors(kernel.staged ? kStagedVectors * band_.num_views : 1);
     Buffer& tested = upload(2, rows, bounds);
@@ -213,32 +214,58 @@ class OpenClBackend : public Backend {
   }
 
   void robust_score(int ref, RowRange rows, const StripMap<std::uint8_t>& todo,
-                    const StripMap<HypothesisBounds>& bounds, bool half_planes) override {
-    const ScoreOptions& score = setup_.options.score;
+                    const StripMap<HypothesisBounds>& bounds, ScoreViews views) override {
+    const ScoreOptions score = own_rows_.size() > 0 ? against_means(setup_.options.score)
+                                                   : setup_.options.score;
+    const bool halves = views == ScoreViews::kHalfPlanes;
     LaneKernel& kernel =
-        lane_kernel("robust_score", define("CUBIC", score.cubic) + define("HALF_PLANES", half_planes));
-    if (planes_ref_ != ref) {
-      const std::vector<std::uint8_t> planes = sampler_.half_planes(ref);
-      planes_buffer_ = Buffer(device_, std::span<const std::uint8_t>(planes));
-      planes_ref_ = ref;
-    }
+        lane_kernel("robust_score", define("CUBIC", score.cubic) + define("HALF_PLANES", halves));
+    const ViewSet& members = view_set(ref, views);
     Buffer& scores = raw_volume(rows);
-    const float floor_views =
-        (half_planes ? kLeastHalfPlane : score.floor_views) * float(band_.num_views);
-    kernel.kernel.set_args(band_memory_.buffer, band_, strip(ref, rows), block_shifts(ref),
-                           hypotheses_, upload(1, rows, todo), upload(2, rows, bounds),
-                           planes_buffer_, score.bandwidth, score.gradient_bandwidth,
-                           score.gradient_share, least_views(), floor_views, scores);
+    const float floor_views = (halves ? kLeastHalfPlane : score.floor_views) * float(members.used);
+    const OwnPixels own = reference_pixels(ref);
+    kernel.kernel.set_args(band_memory_.buffer, band_, strip(ref, rows), own.buffer, own.band,
+                           own.view, block_shifts(ref), hypotheses_, upload(1, rows, todo),
+                           upload(2, rows, bounds), members.buffer, score.bandwidth,
+                           score.gradient_bandwidth, score.gradient_share,
+                           least_views(members.used), floor_views, scores);
     kernel.run(band_.width, rows.size());
     device_.finish();
   }
 
+  void ray_mean(int ref, RowRange rows, const StripMap<float>& disparity,
+                StripMap<float>& means) override {
+    LaneKernel& kernel = lane_kernel("ray_mean", define("CUBIC", setup_.options.score.cubic));
+    const std::size_t values = std::size_t(rows.size()) * channels() * band_.stride;
+    Buffer& out = means_.at_least(device_, values * sizeof(float));
+    kernel.kernel.set_args(band_memory_.buffer, band_, strip(ref, rows), views_buffer_,
+                           upload(3, rows, disparity), setup_.options.score.bandwidth, out);
+    kernel.run_pixels(band_.width, rows.size());
+    out.read(std::span(means.padded_row(rows.begin * channels()), values));
+  }
+
+  void replace_reference(RowRange rows, const StripMap<float>& means) override {
+    const std::size_t values = std::size_t(rows.size()) * channels() * band_.stride;
+    own_pixels_.at_least(device_, values * sizeof(float))
+        .write(std::span(means.padded_row(rows.begin * channels()), values));
+    own_rows_ = rows;
+    if (setup_.options.score.gradient) {
+      const OwnPixels own = reference_pixels(0);
+      plain_kernel("unpack_channels", "unpack_gradients", define("SOURCE_BITS", 32))
+          .set_args(own.band, own.buffer)
+          .run(WorkSize(1, rows.size()), WorkSize(1, 1));
+    }
+  }
+  void restore_reference() override { own_rows_ = {}; }
+  int channels() const override { return setup_.options.score.gradient ? 5 : 3; }
+
   void score_support(int ref, RowRange rows, const StripMap<std::uint8_t>& todo,
                      const StripMap<HypothesisBounds>& bounds) override {
+    const OwnPixels own = reference_pixels(ref);
     const SupportOptions& support = setup_.options.support;
     LaneKernel& kernel = lane_kernel("score_support", define("RADIUS", support.radius));
     Buffer& supported = supported_scores_.at_least(device_, volume_bytes(rows));
-    kernel.kernel.set_args(band_memory_.buffer, band_, strip(ref, rows), hypotheses_,
+    kernel.kernel.set_args(own.buffer, own.band, strip(own.view, rows), hypotheses_,
                            upload(1, rows, todo), upload(2, rows, bounds), raw_scores_.buffer,
                            raw_rows_.begin, support.sigma_colour, support.sigma_space, supported);
     kernel.run_pixels(band_.width, rows.size());
@@ -249,11 +276,12 @@ class OpenClBackend : public Backend {
   void slanted_support(int ref, RowRange rows, const StripMap<std::uint8_t>& todo,
                        const StripMap<HypothesisBounds>& bounds,
                        const StripMap<Slope>& slopes) override {
+    const OwnPixels own = reference_pixels(ref);
     const SupportOptions& support = setup_.options.support;
     LaneKernel& kernel =
         lane_kernel("score_support", define("RADIUS", support.radius), "slanted_support");
     Buffer& supported = supported_scores_.at_least(device_, volume_bytes(rows));
-    kernel.kernel.set_args(band_memory_.buffer, band_, strip(ref, rows), hypotheses_,
+    kernel.kernel.set_args(own.buffer, own.band, strip(own.view, rows), hypotheses_,
                            upload(1, rows, todo), upload(2, rows, bounds), upload(5, rows, slopes),
                            raw_scores_.buffer, raw_rows_.begin, support.sigma_colour,
                            support.sigma_space, supported);
@@ -263,6 +291,7 @@ class OpenClBackend : public Backend {
   }
 
   void scanline(int ref, RowRange rows, const StripMap<std::uint8_t>& todo) override {
+    const OwnPixels own = reference_pixels(ref);
     GIGARAY_CHECK(rows.begin % kScanlineBlock == 0 && winner_scores_ == &supported_scores_);
     const SupportOptions& support = setup_.options.support;
     LaneKernel& kernel = lane_kernel("scanline", "");
@@ -273,7 +302,7 @@ class OpenClBackend : public Backend {
     const int directions[4][2] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}};
     for (int i = 0; i < 4; ++i) {
       const auto [du, dv] = directions[i];
-      kernel.kernel.set_args(band_memory_.buffer, band_, strip(ref, rows), hypotheses_, tested,
+      kernel.kernel.set_args(own.buffer, own.band, strip(own.view, rows), hypotheses_, tested,
                              supported_scores_.buffer, score_rows_.begin, du, dv, support.small_price,
                              support.jump_price, support.jump_sigma_colour, int(i > 0), paths,
                              LocalMemory{states * sizeof(float)});
@@ -289,10 +318,11 @@ class OpenClBackend : public Backend {
 
   void slope_fit(int ref, RowRange rows, const StripMap<float>& in,
                  StripMap<Slope>& slopes) override {
+    const OwnPixels own = reference_pixels(ref);
     LaneKernel& kernel = lane_kernel("slope_fit", "");
     const RowRange around = grown(rows, kSlopeReach, band_.height);
     Buffer& out = map_out(5, rows, sizeof(Slope));
-    kernel.kernel.set_args(band_memory_.buffer, band_, strip(ref, rows), upload(4, around, in),
+    kernel.kernel.set_args(own.buffer, own.band, strip(own.view, rows), upload(4, around, in),
                            around.begin, hypotheses_.step,
                            hypotheses_.step * setup_.options.support.max_slope, out);
     kernel.run(band_.width, rows.size());
@@ -337,15 +367,17 @@ class OpenClBackend : public Backend {
 
   void bilateral_median(int ref, RowRange rows, int radius, float tolerance,
                         const StripMap<float>& in, StripMap<float>& out) override {
+    const OwnPixels own = reference_pixels(ref);
     const bool bilateral = std::isfinite(tolerance);
     LaneKernel& kernel = lane_kernel(
         "bilateral_median", define("RADIUS", radius) + define("BILATERAL", bilateral));
     const RowRange around = grown(rows, radius, band_.height);
     // A plain median looks at no colour, but a kernel argument must be some buffer.
-    Buffer& band = bilateral ? band_memory_.buffer : views_buffer_;
+    Buffer& band = bilateral ? own.buffer : views_buffer_;
     Buffer& result = map_out(3, rows, sizeof(float));
     const std::size_t window = std::size_t(2 * radius + 1) * (2 * radius + 1);
-    kernel.kernel.set_args(band, band_, strip(ref, rows), upload(4, around, in), around.begin,
+    kernel.kernel.set_args(band, own.band, strip(own.view, rows), upload(4, around, in),
+                           around.begin,
                            bilateral ? tolerance : 0.0f, result, kernel.vectors(window));
     kernel.run(band_.width, rows.size());
     download(result, rows, out);
@@ -396,7 +428,38 @@ class OpenClBackend : public Backend {
   }
 
  private:
-  int channels() const { return setup_.options.score.gradient ? 5 : 3; }
+  /// Where the pixels of the reference view are, for kernels that look at nothing else.
+  struct OwnPixels {
+    Buffer& buffer;
+    BandParams band;
+    int view;
+  };
+  OwnPixels reference_pixels(int ref) {
+    if (own_rows_.size() == 0) return {band_memory_.buffer, band_, ref};
+    BandParams own = band_;
+    own.num_views = 1;
+    own.row_begin = own_rows_.begin;
+    own.row_end = own_rows_.end;
+    return {own_pixels_.buffer, own, 0};
+  }
+
+  /// Members of a ScoreViews, for one reference view.
+  struct ViewSet {
+    Buffer buffer;
+    int used = 0;
+    int ref = -1;
+  };
+  const ViewSet& view_set(int ref, ScoreViews views) {
+    ViewSet& set = view_sets_[views];
+    if (set.ref == ref) return set;
+    std::vector<std::uint8_t> members(sampler_.num_views, 1);
+    if (views == ScoreViews::kSome) members = some_views(sampler_.num_views, ref);
+    if (views == ScoreViews::kHalfPlanes) members = sampler_.half_planes(ref);
+    set.buffer = Buffer(device_, std::span<const std::uint8_t>(members));
+    set.used = int(members.size() - std::count(members.begin(), members.end(), 0));
+    set.ref = ref;
+    return set;
+  }
 
   StripParams strip(int ref, RowRange rows) const {
     return {ref, band_.width, rows.begin, rows.end, band_.stride};
@@ -415,8 +478,8 @@ class OpenClBackend : public Backend {
     chosen_by_ = winner_scores_ = &scores;
     score_rows_ = rows;
   }
-  int least_views() const {
-    return std::max(1, int(std::ceil(setup_.options.score.min_views * float(band_.num_views))));
+  int least_views(int used) const {
+    return std::max(1, int(std::ceil(setup_.options.score.min_views * float(used))));
   }
 
   std::string score_defines() const {
@@ -507,14 +570,15 @@ class OpenClBackend : public Backend {
   BandParams band_{};
   int active_count_ = 0;
   int shifts_ref_ = -1;  ///< The view that shifts_ is for.
-  int planes_ref_ = -1;  ///< The view that planes_buffer_ is for.
   RowRange score_rows_;
   RowRange raw_rows_;                ///< of raw_scores_
   Scratch* winner_scores_ = nullptr;  ///< the scores of score_rows_
   Scratch* chosen_by_ = nullptr;      ///< path_scores_ after a scan-line step, else the scores
 
-  Buffer table_buffer_, active_buffer_, views_buffer_, planes_buffer_;
-  Scratch shifts_, packed_, encoded_, band_memory_, raw_scores_, supported_scores_, path_scores_,
+  Buffer table_buffer_, active_buffer_, views_buffer_;
+  std::map<ScoreViews, ViewSet> view_sets_;
+  RowRange own_rows_;  ///< of own_pixels_, which stand for the reference view; empty: they don't
+  Scratch shifts_, packed_, encoded_, band_memory_, own_pixels_, means_, raw_scores_, supported_scores_, path_scores_,
       maps_[6];
   std::map<std::string, Kernel> plain_kernels_;
   std::map<std::string, LaneKernel> lane_kernels_;

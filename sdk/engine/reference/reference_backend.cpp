@@ -8,6 +8,7 @@
 #include "gigaray/samplers/any_sampler.h"
 #include "mean_radiance.h"
 #include "propagation.h"
+#include "ray_mean.h"
 #include "robust_score.h"
 #include "scanline.h"
 #include "score_support.h"
@@ -35,9 +36,10 @@ class ReferenceBackend : public Backend {
 
   void begin_level(const LevelShape& shape) override {
     sampler_ = level0_sampler_.at_level(shape.level);
-    band_ = Band{shape, {}, sampler_.num_views(), setup_.options.score.gradient ? 5 : 3, {}};
+    band_ = Band{shape, {}, sampler_.num_views(), channels(), {}};
   }
   void load_band(RowRange rows, const void* encoded, BandEncoding encoding) override {
+    restore_reference();
     band_.rows = rows;
     band_.data.resize(std::size_t(rows.size()) * band_.num_views * band_.channels *
                       band_.shape.width);
@@ -54,36 +56,61 @@ class ReferenceBackend : public Backend {
     });
   }
   void robust_score(int ref, RowRange rows, const StripMap<std::uint8_t>& todo,
-                    const StripMap<HypothesisBounds>& bounds, bool half_planes) override {
-    std::vector<std::uint8_t> planes;
-    if (half_planes) planes = gigaray::half_planes(sampler_, ref, setup_.hypotheses);
+                    const StripMap<HypothesisBounds>& bounds, ScoreViews views) override {
+    const bool halves = views == ScoreViews::kHalfPlanes;
+    std::vector<std::uint8_t> members(sampler_.num_views(), 1);
+    if (views == ScoreViews::kSome) members = some_views(sampler_.num_views(), ref);
+    if (halves) members = half_planes(sampler_, ref, setup_.hypotheses);
+    const OwnPixels own = reference_pixels(ref);
+    const ScoreOptions score =
+        own_.data.empty() ? setup_.options.score : against_means(setup_.options.score);
     score_rays(rows, todo, bounds, [&](const Ray& ray) {
-      return reference::robust_score(band_, sampler_, ref, ray, setup_.options.score, planes);
+      return reference::robust_score(band_, sampler_, ref, ray,
+                                     own.band.pixel(own.view, int(ray.u), int(ray.v)),
+                                     score, members, halves ? kHalfPlanes : 1);
     });
   }
+  void ray_mean(int ref, RowRange rows, const StripMap<float>& disparity,
+                StripMap<float>& means) override {
+    reference::ray_mean(band_, sampler_, ref, rows, setup_.options.score, disparity, means);
+  }
+  void replace_reference(RowRange rows, const StripMap<float>& means) override {
+    own_ = Band{band_.shape, rows, 1, band_.channels, {}};
+    own_.data.resize(std::size_t(rows.size()) * own_.channels * own_.shape.width);
+    for (int v = rows.begin; v < rows.end; ++v)
+      for (int c = 0; c < 3; ++c)
+        std::copy_n(means.row(v * own_.channels + c), own_.shape.width, own_.plane(0, v, c));
+    unpack_gradients(own_);
+  }
+  void restore_reference() override { own_ = {}; }
+  int channels() const override { return setup_.options.score.gradient ? 5 : 3; }
   void score_support(int ref, RowRange rows, const StripMap<std::uint8_t>& todo,
                      const StripMap<HypothesisBounds>& bounds) override {
-    supported_scores_ = reference::score_support(band_, ref, rows, setup_.options.support, todo,
+    const OwnPixels own = reference_pixels(ref);
+    supported_scores_ = reference::score_support(own.band, own.view, rows, setup_.options.support, todo,
                                                  bounds, raw_scores_);
     winner_takes(supported_scores_);
   }
   void slanted_support(int ref, RowRange rows, const StripMap<std::uint8_t>& todo,
                        const StripMap<HypothesisBounds>& bounds,
                        const StripMap<Slope>& slopes) override {
+    const OwnPixels own = reference_pixels(ref);
     supported_scores_ =
-        reference::slanted_support(band_, ref, rows, setup_.options.support, setup_.hypotheses, todo,
+        reference::slanted_support(own.band, own.view, rows, setup_.options.support, setup_.hypotheses, todo,
                                    bounds, slopes, raw_scores_);
     winner_takes(supported_scores_);
   }
   void scanline(int ref, RowRange rows, const StripMap<std::uint8_t>& todo) override {
+    const OwnPixels own = reference_pixels(ref);
     path_scores_ =
-        reference::scanline(band_, ref, rows, setup_.options.support, todo, supported_scores_);
+        reference::scanline(own.band, own.view, rows, setup_.options.support, todo, supported_scores_);
     chosen_by_ = &path_scores_;
   }
   void slope_fit(int ref, RowRange rows, const StripMap<float>& in,
                  StripMap<Slope>& slopes) override {
+    const OwnPixels own = reference_pixels(ref);
     const float step = float(setup_.hypotheses.step());
-    reference::slope_fit(band_, ref, rows, step, step * setup_.options.support.max_slope, in, slopes);
+    reference::slope_fit(own.band, own.view, rows, step, step * setup_.options.support.max_slope, in, slopes);
   }
   void winner(RowRange rows, const StripMap<std::uint8_t>& todo,
               const StripMap<HypothesisBounds>& bounds, StripMap<float>& disparity,
@@ -103,7 +130,8 @@ class ReferenceBackend : public Backend {
   }
   void bilateral_median(int ref, RowRange rows, int radius, float tolerance,
                         const StripMap<float>& in, StripMap<float>& out) override {
-    reference::bilateral_median(band_, ref, rows, radius, tolerance, in, out);
+    const OwnPixels own = reference_pixels(ref);
+    reference::bilateral_median(own.band, own.view, rows, radius, tolerance, in, out);
   }
   void mean_radiance(int ref, RowRange rows, const StripMap<float>& disparity,
                      StripMap<Radiance>& radiance) override {
@@ -121,6 +149,14 @@ class ReferenceBackend : public Backend {
   }
 
  private:
+  /// Where the pixels of the reference view are.
+  struct OwnPixels {
+    const Band& band;
+    int view;
+  };
+  OwnPixels reference_pixels(int ref) const {
+    return own_.data.empty() ? OwnPixels{band_, ref} : OwnPixels{own_, 0};
+  }
   template <class ScoreOf>
   void score_rays(RowRange rows, const StripMap<std::uint8_t>& todo,
                   const StripMap<HypothesisBounds>& bounds, ScoreOf score_of) {
@@ -143,6 +179,7 @@ class ReferenceBackend : public Backend {
   std::vector<float> table_;
   std::vector<int> active_views_;
   Band band_;
+  Band own_;  ///< replaced pixels of the reference view; empty: those of band_
   Scores raw_scores_, supported_scores_, path_scores_;
   const Scores* winner_scores_ = nullptr;
   const Scores* chosen_by_ = nullptr;  ///< path_scores_ after a scan-line step, else the scores

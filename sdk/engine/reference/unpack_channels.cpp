@@ -24,8 +24,12 @@ void unpack_channels(const void* encoded, BandEncoding encoding, const std::vect
       for (int c = 0; c < 3; ++c)
         for (int u = 0; u < width; ++u)
           band.plane(view, v, c)[u] = value(v - band.rows.begin, view, u, c);
-  if (band.channels < 5) return;
+  unpack_gradients(band);
+}
 
+void unpack_gradients(Band& band) {
+  if (band.channels < 5) return;
+  const int width = band.shape.width;
   const auto mean = [&](int view, int u, int v) {
     return (band.plane(view, v, 0)[u] + band.plane(view, v, 1)[u] + band.plane(view, v, 2)[u]) / 3;
   };

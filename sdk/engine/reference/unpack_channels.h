@@ -6,8 +6,11 @@
 
 namespace gigaray::reference {
 
-/// Fills a band from encoded rows; gradients are half differences of the neighbours' channel means.
+/// Fills a band from encoded rows, gradients included if it has them.
 void unpack_channels(const void* encoded, BandEncoding encoding, const std::vector<float>& table,
                      Band& band);
+
+/// Fills gx and gy from the colours: half differences of the neighbours' channel means.
+void unpack_gradients(Band& band);
 
 }  // namespace gigaray::reference

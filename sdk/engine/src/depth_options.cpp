@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The Gigaray authors
 #include "gigaray/depth_options.h"
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 
@@ -39,6 +40,7 @@ void DepthOptions::check() const {
     throw Error(ErrorCode::kInvalidArgument, "edge.threshold is not a number");
   if (std::isnan(winner.min_confidence))
     throw Error(ErrorCode::kInvalidArgument, "winner.min_confidence is not a number");
+  in_range("score.smoothing", score.smoothing, 0.0f, 3.0f);
   in_range("score.bandwidth", score.bandwidth, kTiny, kLarge);
   in_range("score.gradient_bandwidth", score.gradient_bandwidth, kTiny, kLarge);
   in_range("score.gradient_share", score.gradient_share, 0.0f, 1.0f);
@@ -59,6 +61,9 @@ void DepthOptions::check() const {
   in_range("support.jump_sigma_colour", support.jump_sigma_colour, kTiny, kLarge);
   if (support.scanline && support.radius == 0)
     throw Error(ErrorCode::kInvalidArgument, "support.scanline needs a support.radius above 0");
+  if (score.ray_mean && !(support.slanted && score.gradient))
+    throw Error(ErrorCode::kInvalidArgument,
+                "score.ray_mean needs support.slanted and score.gradient");
   if (support.half_planes && !(support.slanted && score.gradient))
     throw Error(ErrorCode::kInvalidArgument,
                 "support.half_planes needs support.slanted and score.gradient");
@@ -69,6 +74,15 @@ void DepthOptions::check() const {
   in_range("propagation.final_median_radius", propagation.final_median_radius, 0, 8);
   if (memory_bytes < 0 || std::isnan(memory_bytes))
     throw Error(ErrorCode::kInvalidArgument, "memory must not be negative");
+}
+
+ScoreOptions against_means(ScoreOptions score) {
+  constexpr float kNarrower = 0.75f;  // a little more than 1 / sqrt 2: the mean has some noise left
+  score.bandwidth = std::max(kNarrower * score.bandwidth, std::min(score.bandwidth, kLeastBandwidth));
+  score.gradient_bandwidth =
+      std::max(kNarrower * score.gradient_bandwidth,
+               std::min(score.gradient_bandwidth, kLeastGradientBandwidth));
+  return score;
 }
 
 DepthOptions paper_options() {
@@ -89,6 +103,7 @@ DepthOptions auto_options() {
   options.score.cubic = true;
   options.score.gradient = true;
   options.score.from_noise = true;
+  options.score.ray_mean = true;
   options.score.mean_shift_iterations = 0;
   options.score.min_views = 0;
   options.score.floor_views = 0.25f;

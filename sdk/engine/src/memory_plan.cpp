@@ -106,9 +106,9 @@ class Planner {
     const SupportOptions& support = options_.support;
     const double copies = 1 + (support.radius > 0) + support.scanline;
     // Maps of one view: todo, bounds (twice with support), disparity, confidence, median, radiance,
-    // slopes.
+    // slopes, means along rays (5 channels).
     const double pitch = StripMap<float>::pitch_for(light_field_.width);
-    const double view_maps = pitch * light_field_.height * (support.slanted ? 64 : 40);
+    const double view_maps = pitch * light_field_.height * (40 + (support.slanted ? 24 : 0) + (options_.score.ray_mean ? 24 : 0));
     const double threads = std::min(4u, std::max(1u, std::thread::hardware_concurrency()));
     const double decoding = threads * 12.0 * light_field_.width * light_field_.height;
     return kProcessBytes + copies * volume + std::max(view_maps, decoding);

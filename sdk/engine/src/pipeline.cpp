@@ -147,15 +147,17 @@ RowRange Pipeline::rows_needed(RowRange rows) const {
 
 void Pipeline::load_band(RowRange band) {
   control_.throw_if_cancelled();
+  const LevelPlan& plan = plan_.levels[level_];
+  const RowRange own_rows = grown(band, plan.halo, plan.shape.height);
   if (band == loaded_band_) return;
   const StageTimer timer(seconds_, "load");
-  const LevelPlan& plan = plan_.levels[level_];
-  const RowRange rows = rows_needed(grown(band, plan.halo, plan.shape.height));
+  const RowRange rows = rows_needed(own_rows);
   const BandEncoding encoding = level_ > 0                                  ? BandEncoding::kFloat
                                 : light_field_.pixels->bit_depth() == 8 ? BandEncoding::kBits8
                                                                         : BandEncoding::kBits16;
   backend_.load_band(rows, levels_[level_].pixels.open(rows, band_scratch_), encoding);
   loaded_band_ = band;
+  if (means_) backend_.replace_reference(own_rows, *means_);
 }
 
 void Pipeline::find_edges_and_downsample() {

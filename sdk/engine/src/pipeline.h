@@ -56,7 +56,7 @@ class Pipeline {
     StripMap<std::uint8_t> score_todo;             ///< and what supports them
     StripMap<HypothesisBounds> score_bounds;
     const StripMap<Slope>* slopes = nullptr;       ///< null: support without slopes
-    bool half_planes = false;
+    ScoreViews views = ScoreViews::kAll;
     bool scanline = false;
   };
   ScorePass make_pass(const StripMap<std::uint8_t>& todo, const ViewMaps& maps);
@@ -66,11 +66,15 @@ class Pipeline {
   void find_edges_and_downsample();
   bool find_todo(int active_idx, ViewMaps& maps);
   void score_view(int view, ViewMaps& maps);
+  void look_behind(int view, const StripMap<Slope>& slopes, const StripMap<float>& smooth,
+                   ViewMaps& maps);
+  void see_means(const StripMap<float>* means);
   void score_strips(int view, const ScorePass& pass, ViewMaps& maps);
   void score_strip(int view, RowRange rows, const ScorePass& pass, ViewMaps& maps);
   void take_winners(int view, RowRange rows, const ScorePass& pass, ViewMaps& maps);
   void step_back(RowRange rows, const ScorePass& pass, ViewMaps& maps);
   StripMap<float> smooth_disparity(int view, const ViewMaps& maps);
+  StripMap<float> ray_means(int view, const ScorePass& pass, const StripMap<float>& smooth);
   StripMap<Slope> fit_slopes(int view, const StripMap<std::uint8_t>& todo,
                              const StripMap<float>& smooth);
   void accept_view(int active_idx, ViewMaps& maps);
@@ -100,6 +104,7 @@ class Pipeline {
 
   int level_ = 0;
   RowRange loaded_band_;
+  const StripMap<float>* means_ = nullptr;  ///< stand for the pixels of the view that is worked on
   RowRange scored_rows_;  ///< what the backend has raw scores of, for the view that is worked on
   AlignedBytes band_scratch_, state_scratch_;
 };

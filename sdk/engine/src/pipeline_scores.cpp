@@ -32,17 +32,32 @@ Pipeline::ScorePass Pipeline::make_pass(const StripMap<std::uint8_t>& todo, cons
 void Pipeline::score_view(int view, ViewMaps& maps) {
   scored_rows_ = {};
   // Coarser levels have too few pixels, and test too few hypotheses, for more than one look.
-  const bool finest = level_ == 0;
+  const bool finest = level_ == 0, again = finest && options_.support.slanted;
   ScorePass pass = make_pass(maps.todo, maps);
   pass.scanline = finest && options_.support.scanline;
+  if (again && options_.score.ray_mean) pass.views = ScoreViews::kSome;
   score_strips(view, pass, maps);
-  if (!finest || !options_.support.slanted) return;
+  if (!again) return;
 
-  const StripMap<float> smooth = smooth_disparity(view, maps);
-  const StripMap<Slope> slopes = fit_slopes(view, maps.todo, smooth);
+  StripMap<float> smooth = smooth_disparity(view, maps), means;
+  StripMap<Slope> slopes = fit_slopes(view, maps.todo, smooth);
   pass.slopes = &slopes;
   score_strips(view, pass, maps);
-  if (!options_.support.half_planes) return;
+  if (options_.score.ray_mean) {
+    smooth = smooth_disparity(view, maps);
+    means = ray_means(view, pass, smooth);
+    see_means(&means);
+    slopes = fit_slopes(view, maps.todo, smooth);
+    pass.views = ScoreViews::kAll;
+    scored_rows_ = {};
+    score_strips(view, pass, maps);
+  }
+  if (options_.support.half_planes) look_behind(view, slopes, smooth, maps);
+  see_means(nullptr);
+}
+
+void Pipeline::look_behind(int view, const StripMap<Slope>& slopes, const StripMap<float>& smooth,
+                           ViewMaps& maps) {
 
   const RowRange all{0, levels_[level_].shape.height};
   StripMap<std::uint8_t> beside =
@@ -50,9 +65,9 @@ void Pipeline::score_view(int view, ViewMaps& maps) {
   for (int v = all.begin; v < all.end; ++v)
     for (int u = 0; u < beside.width(); ++u) beside.row(v)[u] &= maps.todo.row(v)[u];
   if (!any_set(beside, all)) return;
-  pass = make_pass(beside, maps);
+  ScorePass pass = make_pass(beside, maps);
   pass.slopes = &slopes;
-  pass.half_planes = true;
+  pass.views = ScoreViews::kHalfPlanes;
   scored_rows_ = {};
   score_strips(view, pass, maps);
 }
@@ -77,7 +92,7 @@ void Pipeline::score_strip(int view, RowRange rows, const ScorePass& pass, ViewM
   if (scored != scored_rows_) {
     const StageTimer timer(seconds_, "score");
     if (options_.score.gradient)
-      backend_.robust_score(view, scored, pass.score_todo, pass.score_bounds, pass.half_planes);
+      backend_.robust_score(view, scored, pass.score_todo, pass.score_bounds, pass.views);
     else
       backend_.density_score(view, scored, pass.score_todo, pass.score_bounds);
     scored_rows_ = scored;
@@ -93,7 +108,7 @@ void Pipeline::score_strip(int view, RowRange rows, const ScorePass& pass, ViewM
     const StageTimer timer(seconds_, "scanline");
     backend_.scanline(view, rows, pass.todo);
   }
-  if (pass.half_planes)
+  if (pass.views == ScoreViews::kHalfPlanes)
     step_back(rows, pass, maps);
   else
     take_winners(view, rows, pass, maps);
@@ -162,6 +177,30 @@ StripMap<float> Pipeline::smooth_disparity(int view, const ViewMaps& maps) {
                               options_.winner.median_tolerance, maps.disparity, smooth);
   }
   return smooth;
+}
+
+StripMap<float> Pipeline::ray_means(int view, const ScorePass& pass,
+                                    const StripMap<float>& smooth) {
+  const LevelShape& shape = levels_[level_].shape;
+  StripMap<float> wanted = smooth;  // of the pixels that will be scored
+  for (int v = 0; v < shape.height; ++v)
+    for (int u = 0; u < shape.width; ++u)
+      if (!pass.score_todo.row(v)[u]) wanted.row(v)[u] = kNoEstimate;
+  StripMap<float> means(shape.width, {0, shape.height * backend_.channels()});
+  for (const RowRange band : bands()) {
+    load_band(band);
+    const StageTimer timer(seconds_, "ray means");
+    backend_.ray_mean(view, band, wanted, means);
+  }
+  return means;
+}
+
+void Pipeline::see_means(const StripMap<float>* means) {
+  means_ = means;
+  backend_.restore_reference();
+  if (!means || loaded_band_.size() == 0) return;
+  const LevelPlan& plan = plan_.levels[level_];
+  backend_.replace_reference(grown(loaded_band_, plan.halo, plan.shape.height), *means);
 }
 
 StripMap<Slope> Pipeline::fit_slopes(int view, const StripMap<std::uint8_t>& todo,

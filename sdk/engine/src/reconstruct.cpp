@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "gigaray/scene_estimates.h"
+#include "gigaray/smoothing.h"
 #include "pipeline.h"
 #include "stage_timer.h"
 
@@ -34,16 +35,40 @@ HypothesisRange sample_range(const DepthOptions& options, const LightField& ligh
 }
 
 struct Prepared {
+  LightField light_field;  ///< as the engine gets to see it
   DepthOptions options;
   HypothesisRange hypotheses;
 };
+
+/// Smooths noisy pictures, as little as will do, and sets what the options derive from the noise.
+void adapt_to_noise(Prepared& run, const RunControl& control) {
+  const LightField original = run.light_field;
+  NoiseEstimate noise = estimate_noise(original, run.hypotheses, control);
+  run.options.score.ray_mean = run.options.score.ray_mean && noise.lead < kLeadOfOwnPixel;
+  run.options.score.smoothing = 0;
+  for (const float sigma : {0.7f, 1.0f, 1.3f}) {
+    if (noise.lead >= kLeadWithoutSmoothing) break;
+    const LightField smooth = smoothed(original, sigma);
+    const NoiseEstimate left = estimate_noise(smooth, run.hypotheses, control);
+    if (left.lead <= noise.lead) break;  // it is not noise that hides the answer
+    run.light_field = smooth;
+    run.options.score.smoothing = sigma;
+    noise = left;
+  }
+  if (run.options.score.smoothing > 0) {
+    std::ostringstream text;
+    text << "noisy pictures: smoothed by " << run.options.score.smoothing << " px";
+    control.message(text.str());
+  }
+  apply_noise(noise, run.options);
+}
 
 /// Checks the input and fills in what the options leave to the data.
 Prepared prepare(const LightField& light_field, const DepthOptions& wanted,
                  const RunControl& control, bool read_pixels) {
   check(light_field);
   wanted.check();
-  Prepared run{wanted, {}};
+  Prepared run{light_field, wanted, {}};
   for (const int view : wanted.views)
     if (view < 0 || view >= light_field.num_views())
       throw Error(ErrorCode::kInvalidArgument, "view " + std::to_string(view) + ": there are views 0 … " +
@@ -62,15 +87,17 @@ Prepared prepare(const LightField& light_field, const DepthOptions& wanted,
   }
   run.hypotheses = sample_range(run.options, light_field);
   run.options.hypotheses = run.hypotheses.count;
-  if (run.options.score.from_noise && read_pixels)
-    apply_noise(estimate_noise(light_field, run.hypotheses, control), run.options);
+  if (!read_pixels) return run;
+  if (run.options.score.from_noise)
+    adapt_to_noise(run, control);
+  else if (run.options.score.smoothing > 0)
+    run.light_field = smoothed(light_field, run.options.score.smoothing);
   return run;
 }
 
-std::unique_ptr<Backend> make_backend(const LightField& light_field, const Prepared& run,
-                                      const BackendChoice& choice) {
-  const BackendSetup setup{run.options, run.hypotheses, light_field.kind,
-                           light_field.pixels->bit_depth()};
+std::unique_ptr<Backend> make_backend(const Prepared& run, const BackendChoice& choice) {
+  const BackendSetup setup{run.options, run.hypotheses, run.light_field.kind,
+                           run.light_field.pixels->bit_depth()};
   return std::visit(
       [&](const auto& sampler) -> std::unique_ptr<Backend> {
         if (choice.backend == "reference") return make_reference_backend(sampler, setup);
@@ -78,7 +105,7 @@ std::unique_ptr<Backend> make_backend(const LightField& light_field, const Prepa
         throw Error(ErrorCode::kInvalidArgument,
                     "backend " + choice.backend + ": there are opencl and reference");
       },
-      make_sampler(light_field));
+      make_sampler(run.light_field));
 }
 
 }  // namespace
@@ -164,16 +191,18 @@ ViewDepth Reconstruction::view(int view_idx) {
 Reconstruction reconstruct(const LightField& light_field, const DepthOptions& options,
                            const BackendChoice& backend, const RunControl& control) {
   auto impl = std::make_unique<Reconstruction::Impl>();
+  LightField seen;
   {
     const StageTimer timer(impl->seconds, "prepare");
     const Prepared run = prepare(light_field, options, control, true);
+    seen = run.light_field;
     impl->options = run.options;
     impl->hypotheses = run.hypotheses;
     impl->plan = plan_memory(light_field, run.options, run.hypotheses);
-    impl->backend = make_backend(light_field, run, backend);
+    impl->backend = make_backend(run, backend);
   }
   impl->device = impl->backend->name() + ": " + impl->backend->description();
-  Pipeline pipeline(light_field, impl->options, impl->hypotheses, impl->plan, *impl->backend, control);
+  Pipeline pipeline(seen, impl->options, impl->hypotheses, impl->plan, *impl->backend, control);
   pipeline.run();
   impl->levels = std::move(pipeline.levels());
   impl->active = pipeline.active_views();
@@ -199,7 +228,7 @@ ScoreCurve probe(const LightField& light_field, const DepthOptions& options,
                                                  " is outside the picture of " +
                                                  std::to_string(width) + "x" + std::to_string(height));
   const Prepared run = prepare(light_field, options, control, true);
-  const auto backend = make_backend(light_field, run, choice);
+  const auto backend = make_backend(run, choice);
   const AnySampler sampler = make_sampler(light_field);
 
   // The rows that the pixel's window reaches in any view, all views.
@@ -215,7 +244,7 @@ ScoreCurve probe(const LightField& light_field, const DepthOptions& options,
   std::vector<std::uint16_t> encoded(rows.size() * views * line);
   for (std::size_t view = 0; view < views; ++view) {
     control.progress("decode", double(view), double(views));
-    const Image<std::uint16_t> picture = read_view(light_field, int(view));
+    const Image<std::uint16_t> picture = read_view(run.light_field, int(view));
     for (int y = rows.begin; y < rows.end; ++y)
       std::copy_n(picture.row(y), line,
                   encoded.begin() + (std::size_t(y - rows.begin) * views + view) * line);
@@ -237,7 +266,7 @@ ScoreCurve probe(const LightField& light_field, const DepthOptions& options,
       bounds.row(y)[x] = full;
     }
   if (run.options.score.gradient)
-    backend->robust_score(view_idx, strip, todo, bounds, false);
+    backend->robust_score(view_idx, strip, todo, bounds, ScoreViews::kAll);
   else
     backend->density_score(view_idx, strip, todo, bounds);
   const RowRange row{v, v + 1};

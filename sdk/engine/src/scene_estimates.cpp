@@ -225,12 +225,13 @@ NoiseEstimate estimate_noise(const LightField& light_field, const HypothesisRang
   }
 
   constexpr float kColourCap = 0.3f, kGradientCap = 0.2f;
-  std::vector<float> colour, gradient;
+  std::vector<float> colour, gradient, lead;
   for (std::size_t i = 0; i < bands.size(); ++i) {
     const Band& band = bands[i];
     for (int u = kGrid / 2; u < light_field.width; u += kGrid) {
       const Sample own = band.pixel(0, u, centres[i]);
-      float best_colour = kColourCap, best_gradient = kGradientCap;
+      float best_colour = kColourCap, best_gradient = kGradientCap, sum_of_all = 0;
+      int tested = 0;
       for (int h = 0; h < hypotheses.count; ++h) {
         const Ray ray{double(u), double(centres[i]), hypotheses.value(h)};
         float sum_colour = 0, sum_gradient = 0;
@@ -250,24 +251,28 @@ NoiseEstimate estimate_noise(const LightField& light_field, const HypothesisRang
             },
             sampler);
         if (2 * count < views.num_views() - 1) continue;
+        sum_of_all += sum_colour / count;
+        ++tested;
         best_colour = std::min(best_colour, sum_colour / count);
         best_gradient = std::min(best_gradient, sum_gradient / count);
       }
+      if (tested > 0) lead.push_back(sum_of_all / tested / std::max(best_colour, 1e-4f) - 1);
       colour.push_back(best_colour);
       gradient.push_back(best_gradient);
     }
   }
-  const auto quarter = [](std::vector<float>& values) {
-    const auto at = values.begin() + values.size() / 4;
+  const auto smallest = [](std::vector<float>& values, double share) {
+    if (values.empty()) return 0.0;
+    const auto at = values.begin() + long(share * double(values.size()));
     std::nth_element(values.begin(), at, values.end());
     return double(*at);
   };
-  return {quarter(colour), quarter(gradient)};
+  return {smallest(colour, 0.25), smallest(gradient, 0.25), smallest(lead, 0.5)};
 }
 
 void apply_noise(const NoiseEstimate& noise, DepthOptions& options) {
-  options.score.bandwidth = float(std::max(0.02, 4 * noise.colour));
-  options.score.gradient_bandwidth = float(std::max(0.003, 2.5 * noise.gradient));
+  options.score.bandwidth = std::max(kLeastBandwidth, float(4 * noise.colour));
+  options.score.gradient_bandwidth = std::max(kLeastGradientBandwidth, float(2.5 * noise.gradient));
   options.support.sigma_colour = float(std::max(0.03, 2 * noise.colour));
 }
 

@@ -137,7 +137,7 @@ void KernelTrial::prepare(Backend& backend, const std::string& kernel) const {
   if (kernel == "score_support" || kernel == "slanted_support" || kernel == "scanline" ||
       kernel == "winner") {
     if (setup_.options.score.gradient)
-      backend.robust_score(ref_, rows(), todo_, bounds_, false);
+      backend.robust_score(ref_, rows(), todo_, bounds_, ScoreViews::kAll);
     else
       backend.density_score(ref_, rows(), todo_, bounds_);
   }
@@ -153,7 +153,7 @@ void KernelTrial::run(Backend& backend, const std::string& kernel) {
   else if (kernel == "density_score")
     backend.density_score(ref_, rows(), todo_, bounds_);
   else if (kernel == "robust_score")
-    backend.robust_score(ref_, rows(), todo_, bounds_, false);
+    backend.robust_score(ref_, rows(), todo_, bounds_, ScoreViews::kAll);
   else if (kernel == "scanline")
     backend.scanline(ref_, rows(), todo_);
   else if (kernel == "score_support")

@@ -41,6 +41,13 @@ class StripMap {
   std::vector<T> data_;
 };
 
+/// Which views a robust score is made of.
+enum class ScoreViews {
+  kAll,
+  kSome,       ///< about 25 of them where there are many more: for a first look
+  kHalfPlanes  ///< the best of eight halves
+};
+
 /// First and last hypothesis to test at a pixel.
 struct HypothesisBounds {
   std::uint16_t first = 0;
@@ -110,10 +117,18 @@ class Backend {
   /// Scores of `rows` where todo, kept until the next call of one of these two: the paper's,
   virtual void density_score(int ref, RowRange rows, const StripMap<std::uint8_t>& todo,
                              const StripMap<HypothesisBounds>& bounds) = 0;
-  /// the robust one of colour and gradient (ScoreOptions::gradient); half_planes: of the best half of
-  /// the views.
+  /// the robust one of colour and gradient (ScoreOptions::gradient).
   virtual void robust_score(int ref, RowRange rows, const StripMap<std::uint8_t>& todo,
-                            const StripMap<HypothesisBounds>& bounds, bool half_planes) = 0;
+                            const StripMap<HypothesisBounds>& bounds, ScoreViews views) = 0;
+  /// Mean colour along the rays of the reference view's pixels under `disparity`; NaN: the pixel stays
+  /// as it is. means: row v · channels() + c holds channel c of row v; gradients are left alone.
+  virtual void ray_mean(int ref, RowRange rows, const StripMap<float>& disparity,
+                        StripMap<float>& means) = 0;
+  /// Until the next load_band or restore_reference the steps see the pixels of the reference view, in
+  /// `rows`, with these colours and their gradients; what other views show stays.
+  virtual void replace_reference(RowRange rows, const StripMap<float>& means) = 0;
+  virtual void restore_reference() = 0;
+  virtual int channels() const = 0;  ///< of a band
   /// Makes supported scores for `rows` out of those of the last call above, which cover
   /// support.radius rows more on both sides or end at the edge of the picture.
   virtual void score_support(int ref, RowRange rows, const StripMap<std::uint8_t>& todo,

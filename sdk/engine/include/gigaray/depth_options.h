@@ -18,6 +18,9 @@ struct EdgeOptions {
   bool opening = true;      ///< Morphological opening of the mask: drops isolated pixels.
 };
 
+/// Bandwidths of clean pictures.
+inline constexpr float kLeastBandwidth = 0.02f, kLeastGradientBandwidth = 0.003f;
+
 /// Density score S (eq. 3–5) of a hypothesis.
 struct ScoreOptions {
   bool linear_rgb = true;  ///< Compare linear RGB (sRGB EOTF); false: values as encoded.
@@ -28,8 +31,13 @@ struct ScoreOptions {
   float bandwidth = 0.02f;           ///< Kernel bandwidth h, colour in [0, 1]. > 0
   float gradient_bandwidth = 0.003f; ///< The same for gradients. > 0; used with `gradient`
   float gradient_share = 0.7f;       ///< Share of the gradient in the kernel, 0 … 1
-  /// Estimate both bandwidths (and SupportOptions::sigma_colour) from the noise of the light field.
+  float smoothing = 0;  ///< Gaussian that the pictures are smoothed by first, px; 0: none. 0 … 3
+  /// Derive smoothing, both bandwidths and SupportOptions::sigma_colour from the noise of the pictures,
+  /// and leave out ray_mean where they are clean.
   bool from_noise = false;
+  /// Between the two looks of SupportOptions::slanted the reference view is replaced by the mean of what
+  /// all views see along its rays: its own noise would limit the score. Needs gradient and slanted.
+  bool ray_mean = false;
   int mean_shift_iterations = 10;  ///< Updates of the mean radiance (eq. 5); 0 … 100
   bool stop_early = true;          ///< Stop mean-shift where it moves no more; see density_score.cl
   /// Fewer views that see the point: the hypothesis is not tested. A share of all views, 0 … 1.
@@ -38,6 +46,10 @@ struct ScoreOptions {
   /// share of all views. 0 … 1
   float floor_views = 0;
 };
+
+/// The same where the reference's pixels are means along rays (ScoreOptions::ray_mean): samples differ
+/// from them by their own noise alone, so the bandwidths are narrower, down to their least values.
+ScoreOptions against_means(ScoreOptions score);
 
 /// Bilateral support of the scores by neighbouring pixels, before the winner is chosen.
 struct SupportOptions {

@@ -3,12 +3,27 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
 #include "gigaray/ray_sampler.h"
 
 namespace gigaray {
+
+/// Views that a first look asks, and how many they may be before it leaves some out.
+inline constexpr int kSomeViews = 25, kManyViews = 40;
+
+/// 1 for about kSomeViews views, spread evenly over any order, and for `ref`; of few views for all.
+inline std::vector<std::uint8_t> some_views(int num_views, int ref) {
+  constexpr double kGoldenRatio = 0.61803398874989485;
+  std::vector<std::uint8_t> members(num_views, 1);
+  if (num_views <= kManyViews) return members;
+  for (int view = 0; view < num_views; ++view)
+    members[view] = std::fmod(view * kGoldenRatio, 1.0) * num_views < kSomeViews;
+  members[ref] = 1;
+  return members;
+}
 
 inline constexpr int kHalfPlanes = 8;
 /// Fewer samples in a half-plane than this share of all views count as this many.

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Gigaray authors
+// The reference view without its own noise: the colour of a pixel becomes the mean over the views along
+// its ray, each weighed by the triangle kernel of its colour around the pixel's own.
+//   band       [row][view][CHANNELS][stride]
+//   disparity  [row][pitch]; NaN: the pixel stays as it is
+//   means      [row][CHANNELS][stride], the layout of a band with one view; gradients are not written
+// One work-item per pixel; vectors hold the four taps of a row.
+
+static inline float4 ray_taps(float f) {
+#if CUBIC
+  return cubic_weights(f);
+#else
+  return (float4)(0.0f, 1.0f - f, f, 0.0f);
+#endif
+}
+
+__kernel void ray_mean(__global const float* band, const BandParams p, const StripParams strip,
+                       __global const float* views, __global const float* disparity,
+                       const float bandwidth, __global float* means) {
+  const int u = get_global_id(0), row = get_global_id(1), v = strip.row_begin + row;
+  if (u >= strip.width) return;
+  __global const float* here = band_row(band, p, strip.ref, v) + u;
+  float own[3], sum[3], weights = 0.0f;
+  for (int c = 0; c < 3; ++c) {
+    own[c] = here[c * p.stride];
+    sum[c] = 0.0f;
+  }
+  const float d = disparity[map_index(strip, row, u)];
+  const int num_views = isnan(d) ? 0 : p.num_views;
+  for (int k = 0; k < num_views; ++k) {
+    float x, y, d_other, fx, fy;
+    if (!locate(views, strip.ref, k, u, v, d, &x, &y, &d_other)) continue;
+    const int xi = split_snapped(x, &fx), yi = split_snapped(y, &fy);
+    if (xi < 0 || xi + (fx > 0.0f) > p.width - 1 || yi < 0 || yi + (fy > 0.0f) > p.height - 1)
+      continue;
+    const float4 wx = ray_taps(fx), wy = ray_taps(fy);
+    __global const float* at = band_row(band, p, k, yi) + xi - 1;
+    __global const float* above = band_row(band, p, k, max(yi - 1, 0)) + xi - 1;
+    __global const float* below = band_row(band, p, k, min(yi + 1, p.height - 1)) + xi - 1;
+    __global const float* below2 = band_row(band, p, k, min(yi + 2, p.height - 1)) + xi - 1;
+    float sample[3], d2 = 0.0f;
+    UNROLL
+    for (int c = 0; c < 3; ++c) {
+      const int o = c * p.stride;
+      float4 column = vload4(0, at + o);
+      if (fy > 0.0f)
+        column = wy.s0 * vload4(0, above + o) + wy.s1 * column + wy.s2 * vload4(0, below + o) +
+                 wy.s3 * vload4(0, below2 + o);
+      sample[c] = dot(wx, column);
+      d2 += (sample[c] - own[c]) * (sample[c] - own[c]);
+    }
+    const float w = max(1.0f - sqrt(d2) / bandwidth, 0.0f);
+    weights += w;
+    UNROLL
+    for (int c = 0; c < 3; ++c) sum[c] += w * sample[c];
+  }
+  __global float* out = means + (size_t)row * CHANNELS * p.stride + GIGARAY_PAD + u;
+  UNROLL
+  for (int c = 0; c < 3; ++c) out[c * p.stride] = weights > 0.0f ? sum[c] / weights : own[c];
+}
