@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -24,6 +26,7 @@ using nlohmann::ordered_json;
 struct Settings {
   DepthRunOptions run;
   std::string views = "all";
+  double min_confidence = 0;
   std::filesystem::path output;
   std::vector<std::string> formats;
   bool json = false;
@@ -55,6 +58,12 @@ class Coverage {
   double total_ = 0;
 };
 
+double share_of_estimates(const ViewDepth& depth) {
+  const auto known = std::count_if(depth.disparity.begin(), depth.disparity.end(),
+                                   [](float d) { return !std::isnan(d); });
+  return double(known) / double(depth.disparity.size());
+}
+
 ordered_json options_json(const Reconstruction& result) {
   const DepthOptions& o = result.options();
   const HypothesisRange& h = result.hypotheses();
@@ -71,7 +80,9 @@ ordered_json options_json(const Reconstruction& result) {
           {"edge_squared", o.edge.squared},
           {"support_radius", o.support.radius},
           {"median_radius", o.winner.median_radius},
-          {"min_confidence", o.winner.min_confidence},
+          {"accepted_above", o.winner.min_confidence},
+          {"calibrated_confidence", o.winner.calibrated},
+          {"ray_mean", o.score.ray_mean},
           {"refine", o.winner.refine},
           {"propagation_tolerance", o.propagation.tolerance}};
 }
@@ -128,10 +139,15 @@ void run(const Settings& settings, const RunControl& control) {
       top = view;
       break;
     }
+  double kept = settings.min_confidence > 0 ? 0 : 1;
   for (std::size_t i = 0; i < active.size(); ++i) {
     control.progress("write", double(i), double(active.size()));
     const View& view = light_field.views[active[i]];
-    const ViewDepth depth = result.view(active[i]);
+    ViewDepth depth = result.view(active[i]);
+    if (settings.min_confidence > 0) {
+      drop_unsure(float(settings.min_confidence), depth);
+      kept += share_of_estimates(depth) / double(active.size());
+    }
     folder.write_view(view.name, depth.disparity, depth.confidence, active[i] == top);
     all.add(depth);
     if (active[i] == top) of_centre.add(depth);
@@ -153,6 +169,8 @@ void run(const Settings& settings, const RunControl& control) {
                     {"views", views},
                     {"device", result.device()},
                     {"coverage", {{"top_level_view", of_centre.json()}, {"all", all.json()}}},
+                    {"min_confidence", settings.min_confidence},
+                    {"kept", kept},
                     {"tuples", result.num_tuples()},
                     {"seconds", result.seconds()},
                     {"seconds_total", seconds},
@@ -181,6 +199,11 @@ Run depth_command(CLI::App& app) {
   app.add_option("--views", settings->views,
                  "all, centre, or a list of names, indices and ranges: 0,4-6,view_09")
       ->capture_default_str();
+  app.add_option("--min-confidence", settings->min_confidence,
+                 "Leave out (NaN) what is less sure; with auto the probability of being right within "
+                 "0.07 px")
+      ->check(CLI::NonNegativeNumber)
+      ->type_name("C");
   app.add_option("--format", settings->formats, "Maps in these formats too: exr, npy, png16")
       ->check(CLI::IsMember({"exr", "npy", "png16"}))
       ->delimiter(',');

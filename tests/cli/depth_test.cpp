@@ -131,6 +131,30 @@ TEST_F(DepthCommand, ThePresetAndItsNumbersAreObeyed) {
   EXPECT_EQ(report("out").at("options").at("disparity_range"), (json{-1.5, 1.25}));
 }
 
+TEST_F(DepthCommand, WhatIsLessSureThanAskedForIsLeftOut) {
+  depth("-o all --views centre");
+  depth("-o sure --views centre --min-confidence 0.9");
+  const FloatMap all = read_pfm(folder / "all/disparity.pfm");
+  const FloatMap sure = read_pfm(folder / "sure/disparity.pfm");
+  const FloatMap confidence = read_pfm(folder / "sure/confidence.pfm");
+  EXPECT_EQ(text_of("all/confidence.pfm"), text_of("sure/confidence.pfm"));
+  int kept = 0;
+  for (int v = 0; v < kHeight; ++v)
+    for (int u = 0; u < kWidth; ++u) {
+      EXPECT_GE(confidence(u, v), 0);
+      EXPECT_LE(confidence(u, v), 1);
+      EXPECT_EQ(std::isnan(sure(u, v)), confidence(u, v) < 0.9f);
+      if (std::isnan(sure(u, v))) continue;
+      EXPECT_EQ(sure(u, v), all(u, v));
+      ++kept;
+    }
+  EXPECT_GT(kept, 0);
+  EXPECT_LT(kept, kWidth * kHeight);
+  EXPECT_NEAR(report("sure").at("kept"), double(kept) / (kWidth * kHeight), 1e-6);
+  EXPECT_EQ(report("all").at("kept"), 1);
+  expect_refusal("depth made -o none --min-confidence -1", 2, "--min-confidence");
+}
+
 TEST_F(DepthCommand, ViewsAreNamedByNameIndexAndRange) {
   const Names top{"confidence.pfm", "depth.pfm", "depth.png", "disparity.pfm", "gigaray.json"};
   const auto with = [&](Names names) {

@@ -96,5 +96,36 @@ TEST(Dilate, GrowsASquareAndCoversAllBounds) {
     }
 }
 
+TEST(CloseCracks, NarrowHolesOfOneSurfaceAreFilledEvenly) {
+  StripMap<float> estimates(9, {0, 3}), confidence(9, {0, 3});
+  for (int v = 0; v < 3; ++v)
+    for (int u = 0; u < 9; ++u) {
+      estimates.row(v)[u] = u < 6 ? 1 + 0.01f * float(u) : 3;
+      confidence.row(v)[u] = 0.1f * float(u);
+    }
+  estimates.row(1)[2] = estimates.row(1)[3] = kNoEstimate;  // a crack
+  estimates.row(0)[5] = estimates.row(1)[5] = estimates.row(2)[5] = kNoEstimate;  // beside a jump
+  estimates.row(2)[0] = kNoEstimate;                                             // at the edge
+  const auto filled = close_cracks(2, 0.1f, estimates, confidence);
+  EXPECT_NEAR(estimates.row(1)[2], 1.02, 1e-6);
+  EXPECT_NEAR(estimates.row(1)[3], 1.03, 1e-6);
+  EXPECT_NEAR(confidence.row(1)[3], 0.1, 1e-6);
+  EXPECT_TRUE(filled.row(1)[2] && filled.row(1)[3]);
+  for (int v = 0; v < 3; ++v) EXPECT_TRUE(std::isnan(estimates.row(v)[5])) << v;
+  EXPECT_TRUE(std::isnan(estimates.row(2)[0]));
+  EXPECT_EQ(filled.row(2)[0] + filled.row(0)[5], 0);
+}
+
+TEST(CloseCracks, AColumnFillsWhatNoRowCanAndWideHolesStay) {
+  StripMap<float> estimates(7, {0, 5}), confidence(7, {0, 5});
+  for (int v = 0; v < 5; ++v)
+    for (int u = 0; u < 7; ++u) estimates.row(v)[u] = v == 2 ? kNoEstimate : 2.0f;
+  close_cracks(1, 0.1f, estimates, confidence);
+  for (int u = 0; u < 7; ++u) EXPECT_EQ(estimates.row(2)[u], 2);
+  for (int u = 0; u < 7; ++u) estimates.row(2)[u] = estimates.row(3)[u] = kNoEstimate;
+  close_cracks(1, 0.1f, estimates, confidence);
+  for (int u = 0; u < 7; ++u) EXPECT_TRUE(std::isnan(estimates.row(2)[u])) << u;
+}
+
 }  // namespace
 }  // namespace gigaray

@@ -65,6 +65,45 @@ void dilate(int radius, int height, StripMap<std::uint8_t>& todo,
     }
 }
 
+StripMap<std::uint8_t> close_cracks(int width, float apart, StripMap<float>& estimates,
+                                    StripMap<float>& confidence) {
+  const RowRange rows = estimates.rows();
+  StripMap<std::uint8_t> filled(estimates.width(), rows);
+  // All lines see the estimates as they came, so that the order of rows and columns does not matter
+  // but for a hole that both could fill: the row does.
+  const StripMap<float> carried = estimates;
+  const auto fill_line = [&](int length, auto at) {
+    int last = -1;  // the last estimate before
+    for (int i = 0; i < length; ++i) {
+      const auto [u, v] = at(i);
+      const float after = carried.row(v)[u];
+      if (std::isnan(after)) continue;
+      const int holes = i - last - 1;
+      if (last >= 0 && holes > 0 && holes <= width) {
+        const auto [u0, v0] = at(last);
+        const float before = carried.row(v0)[u0];
+        if (std::abs(after - before) <= apart)
+          for (int k = 1; k <= holes; ++k) {
+            const auto [x, y] = at(last + k);
+            if (filled.row(y)[x]) continue;
+            filled.row(y)[x] = 1;
+            estimates.row(y)[x] = before + (after - before) * float(k) / float(holes + 1);
+            confidence.row(y)[x] = std::min(confidence.row(v0)[u0], confidence.row(v)[u]);
+          }
+      }
+      last = i;
+    }
+  };
+  struct Pixel {
+    int u, v;
+  };
+  for (int v = rows.begin; v < rows.end; ++v)
+    fill_line(estimates.width(), [&](int i) { return Pixel{i, v}; });
+  for (int u = 0; u < estimates.width(); ++u)
+    fill_line(rows.size(), [&](int i) { return Pixel{u, rows.begin + i}; });
+  return filled;
+}
+
 bool any_set(const StripMap<std::uint8_t>& mask, RowRange rows) {
   for (int v = rows.begin; v < rows.end; ++v)
     if (std::any_of(mask.row(v), mask.row(v) + mask.width(), [](auto x) { return x != 0; }))

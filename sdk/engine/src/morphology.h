@@ -15,6 +15,12 @@ StripMap<std::uint8_t> open_mask(const StripMap<std::uint8_t>& mask, RowRange ro
 void dilate(int radius, int height, StripMap<std::uint8_t>& todo,
             StripMap<HypothesisBounds>& bounds);
 
+/// Estimates carried over from other views leave cracks where a surface is wider in this one. Fills
+/// holes of up to `width` pixels in a row or a column between two estimates no more than `apart` apart,
+/// evenly from one to the other. Returns what was filled; confidence: the lower of the two.
+StripMap<std::uint8_t> close_cracks(int width, float apart, StripMap<float>& estimates,
+                                    StripMap<float>& confidence);
+
 /// Whether any pixel of the rows is set.
 bool any_set(const StripMap<std::uint8_t>& mask, RowRange rows);
 

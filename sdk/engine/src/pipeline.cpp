@@ -200,7 +200,7 @@ void Pipeline::find_edges_and_downsample() {
 
 bool Pipeline::find_todo(int active_idx, ViewMaps& maps) {
   const StageTimer timer(seconds_, "select");
-  const LevelState& state = levels_[level_];
+  LevelState& state = levels_[level_];
   const int width = state.shape.width, height = state.shape.height;
   const RowRange all{0, height};
   maps.todo = StripMap<std::uint8_t>(width, all);
@@ -211,25 +211,51 @@ bool Pipeline::find_todo(int active_idx, ViewMaps& maps) {
   const HypothesisBounds full{0, std::uint16_t(hypotheses_.count - 1)};
   const std::size_t at = std::size_t(active_idx) * width;
   std::vector<PackedEstimate> estimates(width);
-  std::vector<std::uint8_t> mask(width, 1);
-  std::vector<Search> search(width);
-  bool any = false;
+  bool any_known = false;
   for (int v = 0; v < height; ++v) {
     state.estimates.read(v, at * sizeof(PackedEstimate), width * sizeof(PackedEstimate),
                          estimates.data());
+    for (int u = 0; u < width; ++u) {
+      maps.disparity.row(v)[u] = hypothesis_of(estimates[u]);
+      maps.confidence.row(v)[u] = estimates[u] != 0 ? confidence_of(estimates[u]) : 0;
+      any_known = any_known || estimates[u] != 0;
+    }
+  }
+  const bool cracked = level_ == 0 && any_known && options_.propagation.crack_width > 0;
+  if (cracked) fill_cracks(active_idx, maps);
+
+  std::vector<std::uint8_t> mask(width, 1);
+  std::vector<Search> search(width);
+  for (int v = 0; v < height; ++v) {
     if (!state.mask.empty()) state.mask.read(v, at, width, mask.data());
     if (level_ > 0)
       state.search.read(v, at * sizeof(Search), width * sizeof(Search), search.data());
     for (int u = 0; u < width; ++u) {
-      maps.disparity.row(v)[u] = hypothesis_of(estimates[u]);
-      if (estimates[u] != 0 || !mask[u]) continue;
+      if (!std::isnan(maps.disparity.row(v)[u]) || !mask[u]) continue;
       if (level_ > 0 && std::isnan(search[u].low)) continue;
       maps.todo.row(v)[u] = 1;
       maps.bounds.row(v)[u] = level_ > 0 ? bounds_of(search[u], hypotheses_) : full;
-      any = true;
     }
   }
-  return any;
+  // Specks would cost whole windows of scores each.
+  if (cracked && !is_last_level()) maps.todo = open_mask(maps.todo, all, height);
+  return any_set(maps.todo, all);
+}
+
+void Pipeline::fill_cracks(int active_idx, ViewMaps& maps) {
+  constexpr float kSameSurface = 3;  // hypotheses
+  const StripMap<std::uint8_t> filled =
+      close_cracks(options_.propagation.crack_width, kSameSurface * float(hypotheses_.step()),
+                   maps.disparity, maps.confidence);
+  LevelState& state = levels_[level_];
+  const std::size_t at = std::size_t(active_idx) * state.shape.width;
+  for (int v = 0; v < state.shape.height; ++v)
+    for (int u = 0; u < state.shape.width; ++u) {
+      if (!filled.row(v)[u]) continue;
+      const PackedEstimate estimate =
+          pack_estimate(maps.disparity.row(v)[u], maps.confidence.row(v)[u]);
+      state.estimates.write(v, (at + u) * sizeof(PackedEstimate), sizeof estimate, &estimate);
+    }
 }
 
 void Pipeline::accept_view(int active_idx, ViewMaps& maps) {

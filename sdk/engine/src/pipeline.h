@@ -65,6 +65,7 @@ class Pipeline {
   void begin_level(int level);
   void find_edges_and_downsample();
   bool find_todo(int active_idx, ViewMaps& maps);
+  void fill_cracks(int active_idx, ViewMaps& maps);
   void score_view(int view, ViewMaps& maps);
   void look_behind(int view, const StripMap<Slope>& slopes, const StripMap<float>& smooth,
                    ViewMaps& maps);

@@ -7,6 +7,7 @@
 #include <limits>
 #include <sstream>
 
+#include "gigaray/calibration.h"
 #include "gigaray/scene_estimates.h"
 #include "gigaray/smoothing.h"
 #include "pipeline.h"
@@ -175,6 +176,9 @@ ViewDepth Reconstruction::view(int view_idx) {
     }
   }
 
+  if (impl_->options.winner.calibrated)
+    for (float& confidence : result.confidence) confidence = calibrated_confidence(confidence);
+
   const int radius = impl_->options.propagation.final_median_radius;
   if (radius == 0) return result;
   const int width = result.disparity.width(), height = result.disparity.height();
@@ -186,6 +190,12 @@ ViewDepth Reconstruction::view(int view_idx) {
                                    out);
   for (int v = 0; v < height; ++v) std::copy_n(out.row(v), width, result.disparity.row(v));
   return result;
+}
+
+void drop_unsure(float min_confidence, ViewDepth& depth) {
+  for (int v = 0; v < depth.disparity.height(); ++v)
+    for (int u = 0; u < depth.disparity.width(); ++u)
+      if (!(depth.confidence(u, v) >= min_confidence)) depth.disparity(u, v) = kNoEstimate;
 }
 
 Reconstruction reconstruct(const LightField& light_field, const DepthOptions& options,

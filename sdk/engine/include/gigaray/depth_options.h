@@ -79,6 +79,8 @@ struct WinnerOptions {
   float median_tolerance = 0.1f;   ///< Colour distance ε. > 0
   bool weigh_by_edge = true;       ///< Confidence is Ce · (Smax − mean S), eq. 7; false: without Ce.
   float min_confidence = 0;        ///< Estimates at or below it are left to coarser levels.
+  /// Report the confidence as a probability, see calibration.h; false: the bare number of eq. 7.
+  bool calibrated = false;
   /// Where the best score is above the mean by no more than this share of itself, all hypotheses score
   /// alike: such pixels carry no information and get confidence 0. 0 … 1
   float min_relief = 0;
@@ -87,6 +89,9 @@ struct WinnerOptions {
 /// Propagation and fine-to-coarse.
 struct PropagationOptions {
   float tolerance = 0.1f;  ///< Colour distance ε between mean radiance and a ray. > 0
+  /// Holes between estimates carried over from other views that are filled between their neighbours on
+  /// level 0, and holes that are left to coarser levels: px. 0: none; 0 … 8
+  int crack_width = 0;
   bool fine_to_coarse = true;  ///< false: level 0 alone; what it can't decide stays empty.
   int final_median_radius = 1; ///< Half the window of the final plain median; 0: none.
 };

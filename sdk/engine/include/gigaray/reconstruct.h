@@ -29,9 +29,14 @@ struct RayTuple {
 /// Depth of one view.
 struct ViewDepth {
   FloatMap disparity;   ///< (v, u), level-0 px per view step; NaN: no estimate
-  FloatMap confidence;  ///< (v, u), 0 and above; NaN: no estimate
+  /// (v, u); NaN: no estimate. auto: probability of being right within 0.07 px, calibration.h; paper:
+  /// eq. 7, 0 and above.
+  FloatMap confidence;
   Image<std::int8_t> level;  ///< pyramid level that decided, −1: none
 };
+
+/// Takes back disparities with a confidence below `min_confidence`; confidence stays.
+void drop_unsure(float min_confidence, ViewDepth& depth);
 
 /// What a run will take.
 struct Forecast {
