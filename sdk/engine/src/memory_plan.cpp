@@ -23,7 +23,7 @@ constexpr double kProcessBytes = 220 * kMiB;
 constexpr double kLargestBuffer = 1800 * kMiB;
 constexpr int kSmallestLevel = 10;  // px
 /// Most for the scores of a strip, where its least number of rows takes less.
-constexpr double kLargestVolume = 512 * kMiB;
+constexpr double kLargestVolume = 1024 * kMiB;
 
 double free_memory() {
   std::ifstream info("/proc/meminfo");
