@@ -33,19 +33,19 @@ std::string name_of(const Expectation& e) {
 void PrintTo(const Expectation& e, std::ostream* out) { *out << name_of(e); }
 
 constexpr Expectation kExpectations[] = {
-    {"planes", Rig::kRow, 0, 1.1, 1.3},           {"rods", Rig::kRow, 0, 12.2, 14.0},
-    {"sphere", Rig::kRow, 0, 0.5, 0.7},           {"wall", Rig::kRow, 0, 41.4, 47.6},
-    {"specular", Rig::kRow, 0, 11.3, 12.9},       {"plaster", Rig::kRow, 0, 8.4, 9.7},
-    {"silhouettes", Rig::kRow, 0, 5.4, 6.2},      {"wedges", Rig::kRow, 0, 3.1, 3.6},
-    {"garden", Rig::kRow, 0, 18.1, 20.8},         {"planes", Rig::kCross, 0, 1.6, 1.9},
-    {"rods", Rig::kCross, 0, 16.7, 19.2},         {"sphere", Rig::kCross, 0, 3.2, 3.6},
-    {"wall", Rig::kCross, 0, 34.0, 39.1},         {"specular", Rig::kCross, 0, 19.1, 22.0},
-    {"plaster", Rig::kCross, 0, 24.4, 28.0},      {"silhouettes", Rig::kCross, 0, 7.0, 8.0},
-    {"wedges", Rig::kCross, 0, 3.4, 3.9},         {"garden", Rig::kCross, 0, 24.2, 27.8},
-    {"planes", Rig::kCross, 0.01, 1.3, 1.5},      {"planes", Rig::kCross, 0.02, 1.7, 2.0},
-    {"plaster", Rig::kCross, 0.01, 35.8, 41.1},   {"plaster", Rig::kCross, 0.02, 39.2, 45.1},
-    {"silhouettes", Rig::kCross, 0.01, 5.1, 5.8}, {"silhouettes", Rig::kCross, 0.02, 5.6, 6.4},
-    {"wedges", Rig::kCross, 0.01, 4.1, 4.7},      {"wedges", Rig::kCross, 0.02, 5.0, 5.8},
+    {"planes", Rig::kRow, 0, 0.8, 1.0},           {"rods", Rig::kRow, 0, 8.4, 9.7},
+    {"sphere", Rig::kRow, 0, 0.6, 0.7},           {"wall", Rig::kRow, 0, 39.5, 45.5},
+    {"specular", Rig::kRow, 0, 10.6, 12.2},       {"plaster", Rig::kRow, 0, 8.4, 9.7},
+    {"silhouettes", Rig::kRow, 0, 6.1, 7.1},      {"wedges", Rig::kRow, 0, 3.1, 3.6},
+    {"garden", Rig::kRow, 0, 15.2, 17.5},         {"planes", Rig::kCross, 0, 1.5, 1.8},
+    {"rods", Rig::kCross, 0, 13.1, 15.1},         {"sphere", Rig::kCross, 0, 3.2, 3.7},
+    {"wall", Rig::kCross, 0, 38.2, 44.0},         {"specular", Rig::kCross, 0, 17.0, 19.6},
+    {"plaster", Rig::kCross, 0, 24.4, 28.1},      {"silhouettes", Rig::kCross, 0, 7.4, 8.6},
+    {"wedges", Rig::kCross, 0, 3.4, 4.0},         {"garden", Rig::kCross, 0, 22.1, 25.5},
+    {"planes", Rig::kCross, 0.01, 1.2, 1.4},      {"planes", Rig::kCross, 0.02, 1.6, 1.9},
+    {"plaster", Rig::kCross, 0.01, 25.8, 29.7},   {"plaster", Rig::kCross, 0.02, 31.0, 35.7},
+    {"silhouettes", Rig::kCross, 0.01, 5.5, 6.4}, {"silhouettes", Rig::kCross, 0.02, 6.2, 7.2},
+    {"wedges", Rig::kCross, 0.01, 3.9, 4.5},      {"wedges", Rig::kCross, 0.02, 5.2, 6.0},
 };
 
 class Accuracy : public testing::TestWithParam<Expectation> {};
@@ -66,7 +66,7 @@ TEST_P(Accuracy, StaysBelowItsLimit) {
 
 /// A corner view has all others on one side of it.
 TEST(Accuracy, CornerViewsStayBelowTheirLimit) {
-  constexpr double kLimitOfMean = 21.7, kMeasured = 18.8;
+  constexpr double kLimitOfMean = 21.4, kMeasured = 18.6;
   const SyntheticLightField field = testing_support::render_scene("rods", Rig::kGrid, 0);
   const int last = field.light_field.num_views() - 1;
   double mean = 0;
@@ -75,6 +75,36 @@ TEST(Accuracy, CornerViewsStayBelowTheirLimit) {
     mean += scores.bad_pix_007 / 4;
   RecordProperty("BadPix0.07", std::to_string(mean));
   EXPECT_LE(mean, kLimitOfMean) << "it was " << kMeasured << " when the limit was set";
+}
+
+/// Of pixels that are said to be right with some probability about that share is.
+TEST(Accuracy, ConfidenceIsAProbability) {
+  constexpr double kTolerance = 0.08;  // thin structures are worse, docs/accuracy.md
+  for (const char* scene : {"planes", "silhouettes"}) {
+    const SyntheticLightField field = testing_support::render_scene(scene, Rig::kGrid, 0.01);
+    const int centre = centre_view(field.light_field);
+    DepthOptions options = auto_options();
+    options.views = {centre};
+    const ViewDepth depth =
+        reconstruct(field.light_field, options, {}, RunControl()).view(centre);
+    double said = 0, sure = 0, right = 0, sure_and_right = 0, all = 0;
+    for (int v = 15; v < depth.disparity.height() - 15; ++v)
+      for (int u = 15; u < depth.disparity.width() - 15; ++u) {
+        const bool is_right =
+            std::abs(depth.disparity(u, v) - field.disparity[centre](u, v)) <= 0.07;
+        said += depth.confidence(u, v);
+        right += is_right;
+        all += 1;
+        if (depth.confidence(u, v) < 0.95f) continue;
+        sure += 1;
+        sure_and_right += is_right;
+      }
+    RecordProperty(std::string(scene) + " said", std::to_string(said / all));
+    RecordProperty(std::string(scene) + " right", std::to_string(right / all));
+    EXPECT_NEAR(said / all, right / all, kTolerance) << scene;
+    ASSERT_GT(sure, 0.1 * all) << scene;
+    EXPECT_GT(sure_and_right / sure, 0.95 - kTolerance) << scene;
+  }
 }
 
 }  // namespace

@@ -46,22 +46,33 @@ TEST(HalfPlanes, HoldTheViewsOnOneSideAndThoseOnTheirBorder) {
   EXPECT_EQ((row[0] & 1) + (row[4] & 1), 1);
 }
 
-TEST(SomeViews, AreAllOfFewAndAboutTwentyFiveOfMany) {
+TEST(SpreadViews, AreAllOfFewAndAboutAsManyAsWantedOfMany) {
   const auto count = [](const std::vector<std::uint8_t>& members) {
     return std::count(members.begin(), members.end(), 1);
   };
-  EXPECT_EQ(count(some_views(33, 16)), 33);
+  EXPECT_EQ(count(spread_views(33, 16, kFirstViews)), 33);
+  EXPECT_EQ(count(spread_views(81, 40, kMostViews)), 81);
   for (const int views : {41, 81, 100, 289}) {
     for (const int ref : {0, 7, views / 2}) {
-      const auto members = some_views(views, ref);
+      const auto members = spread_views(views, ref, kFirstViews);
       EXPECT_EQ(members[ref], 1);
-      EXPECT_NEAR(double(count(members)), kSomeViews, 4);
+      EXPECT_NEAR(double(count(members)), kFirstViews, 4);
       // Spread over the views: every quarter of them has its share.
       for (int i = 0; i < 4; ++i)
-        EXPECT_GE(std::count(members.begin() + i * views / 4, members.begin() + (i + 1) * views / 4, 1),
-                  4);
+        EXPECT_GE(
+            std::count(members.begin() + i * views / 4, members.begin() + (i + 1) * views / 4, 1),
+            4);
     }
   }
+}
+
+TEST(ScoreMembers, OfHalfPlanesLeaveOutWhatTheScoreLeavesOut) {
+  const GridSampler sampler(grid_of_views(17, 17));
+  const HypothesisRange range{-1, 1, 3};
+  const auto all = score_members(sampler, 144, ScoreViews::kAll, range);
+  const auto halves = score_members(sampler, 144, ScoreViews::kHalfPlanes, range);
+  for (int view = 0; view < 289; ++view) EXPECT_EQ(all[view] != 0, halves[view] != 0) << view;
+  EXPECT_EQ(halves[144], 0xff);
 }
 
 TEST(RayMean, TakesTheNoiseOffButNotTheOccluder) {

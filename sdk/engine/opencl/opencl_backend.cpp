@@ -106,7 +106,7 @@ std::vector<int> pack_sparse_blocks(RowRange rows, int lanes, StripMap<std::uint
 struct SamplerTwin {
   std::string kernel_file;
   std::function<std::vector<float>(int level)> view_table;
-  std::function<std::vector<std::uint8_t>(int ref)> half_planes;
+  std::function<std::vector<std::uint8_t>(int ref, ScoreViews views)> score_members;
   int num_views = 0;
 };
 
@@ -452,9 +452,7 @@ class OpenClBackend : public Backend {
   const ViewSet& view_set(int ref, ScoreViews views) {
     ViewSet& set = view_sets_[views];
     if (set.ref == ref) return set;
-    std::vector<std::uint8_t> members(sampler_.num_views, 1);
-    if (views == ScoreViews::kSome) members = some_views(sampler_.num_views, ref);
-    if (views == ScoreViews::kHalfPlanes) members = sampler_.half_planes(ref);
+    const std::vector<std::uint8_t> members = sampler_.score_members(ref, views);
     set.buffer = Buffer(device_, std::span<const std::uint8_t>(members));
     set.used = int(members.size() - std::count(members.begin(), members.end(), 0));
     set.ref = ref;
@@ -594,7 +592,9 @@ std::unique_ptr<Backend> make_tuned_backend(const S& sampler, const BackendSetup
                                             const TuningOverrides& overrides) {
   SamplerTwin twin{std::string(S::kKernelFile),
                    [sampler](int level) { return sampler.at_level(level).view_table(); },
-                   [sampler, range = setup.hypotheses](int ref) { return half_planes(sampler, ref, range); },
+                   [sampler, range = setup.hypotheses](int ref, ScoreViews views) {
+                     return score_members(sampler, ref, views, range);
+                   },
                    sampler.num_views()};
   return std::make_unique<OpenClBackend>(std::move(twin), setup, device_selection, overrides);
 }

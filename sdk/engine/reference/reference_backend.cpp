@@ -58,9 +58,7 @@ class ReferenceBackend : public Backend {
   void robust_score(int ref, RowRange rows, const StripMap<std::uint8_t>& todo,
                     const StripMap<HypothesisBounds>& bounds, ScoreViews views) override {
     const bool halves = views == ScoreViews::kHalfPlanes;
-    std::vector<std::uint8_t> members(sampler_.num_views(), 1);
-    if (views == ScoreViews::kSome) members = some_views(sampler_.num_views(), ref);
-    if (halves) members = half_planes(sampler_, ref, setup_.hypotheses);
+    const auto members = score_members(sampler_, ref, views, setup_.hypotheses);
     const OwnPixels own = reference_pixels(ref);
     const ScoreOptions score =
         own_.data.empty() ? setup_.options.score : against_means(setup_.options.score);

@@ -15,6 +15,9 @@ namespace {
 constexpr float kJump = 7, kFarther = 3;
 // Where the nearer surface can hide a point from some views, px.
 constexpr int kBesideJump = 10;
+// So many views make a second scoring cheaper than a first with all of them: in bands both would be
+// needed.
+constexpr int kManyViews = 160;
 // By how much the score of the best half of the views must exceed that of the estimate so far.
 constexpr float kLead = 0.01f;
 
@@ -35,7 +38,11 @@ void Pipeline::score_view(int view, ViewMaps& maps) {
   const bool finest = level_ == 0, again = finest && options_.support.slanted;
   ScorePass pass = make_pass(maps.todo, maps);
   pass.scanline = finest && options_.support.scanline;
-  if (again && options_.score.ray_mean) pass.views = ScoreViews::kSome;
+  // Where the last look has to score anew anyway, or takes very many views, a few do for the first.
+  const bool few_first =
+      again && options_.score.gradient &&
+      (options_.score.ray_mean || light_field_.num_views() > kManyViews);
+  if (few_first) pass.views = ScoreViews::kFirst;
   score_strips(view, pass, maps);
   if (!again) return;
 
@@ -43,10 +50,12 @@ void Pipeline::score_view(int view, ViewMaps& maps) {
   StripMap<Slope> slopes = fit_slopes(view, maps.todo, smooth);
   pass.slopes = &slopes;
   score_strips(view, pass, maps);
-  if (options_.score.ray_mean) {
+  if (few_first) {
     smooth = smooth_disparity(view, maps);
-    means = ray_means(view, pass, smooth);
-    see_means(&means);
+    if (options_.score.ray_mean) {
+      means = ray_means(view, pass, smooth);
+      see_means(&means);
+    }
     slopes = fit_slopes(view, maps.todo, smooth);
     pass.views = ScoreViews::kAll;
     scored_rows_ = {};

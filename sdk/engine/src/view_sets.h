@@ -7,20 +7,22 @@
 #include <cstdint>
 #include <vector>
 
+#include "gigaray/backend.h"
 #include "gigaray/ray_sampler.h"
 
 namespace gigaray {
 
-/// Views that a first look asks, and how many they may be before it leaves some out.
-inline constexpr int kSomeViews = 25, kManyViews = 40;
+/// Views that a robust score is made of at most, and a first look. More hardly help (half of 81 views:
+/// docs/accuracy.md) and each costs the same.
+inline constexpr int kMostViews = 100, kFirstViews = 25;
 
-/// 1 for about kSomeViews views, spread evenly over any order, and for `ref`; of few views for all.
-inline std::vector<std::uint8_t> some_views(int num_views, int ref) {
+/// 1 for `ref` and for about `wanted` views, spread evenly over any order; for all if a few more.
+inline std::vector<std::uint8_t> spread_views(int num_views, int ref, int wanted) {
   constexpr double kGoldenRatio = 0.61803398874989485;
   std::vector<std::uint8_t> members(num_views, 1);
-  if (num_views <= kManyViews) return members;
+  if (5 * num_views <= 8 * wanted) return members;
   for (int view = 0; view < num_views; ++view)
-    members[view] = std::fmod(view * kGoldenRatio, 1.0) * num_views < kSomeViews;
+    members[view] = std::fmod(view * kGoldenRatio, 1.0) * num_views < wanted;
   members[ref] = 1;
   return members;
 }
@@ -50,6 +52,20 @@ std::vector<std::uint8_t> half_planes(const S& sampler, int ref, const Hypothesi
         planes[view] &= std::uint8_t(~(1u << i));
   }
   return planes;
+}
+
+/// The views of a ScoreViews as bytes: bit 0, the view counts; for half-planes bit i as there, 0 for a
+/// view that is left out.
+template <RaySampler S>
+std::vector<std::uint8_t> score_members(const S& sampler, int ref, ScoreViews views,
+                                        const HypothesisRange& hypotheses) {
+  const int wanted = views == ScoreViews::kFirst ? kFirstViews : kMostViews;
+  std::vector<std::uint8_t> members = spread_views(sampler.num_views(), ref, wanted);
+  if (views != ScoreViews::kHalfPlanes) return members;
+  const std::vector<std::uint8_t> planes = half_planes(sampler, ref, hypotheses);
+  for (std::size_t view = 0; view < members.size(); ++view)
+    members[view] = members[view] ? planes[view] : 0;
+  return members;
 }
 
 }  // namespace gigaray

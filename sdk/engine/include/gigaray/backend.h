@@ -43,9 +43,9 @@ class StripMap {
 
 /// Which views a robust score is made of.
 enum class ScoreViews {
-  kAll,
-  kSome,       ///< about 25 of them where there are many more: for a first look
-  kHalfPlanes  ///< the best of eight halves
+  kAll,        ///< about 100 of them where there are many more
+  kFirst,      ///< about 25: for a first look
+  kHalfPlanes  ///< the best of eight halves of kAll
 };
 
 /// First and last hypothesis to test at a pixel.
