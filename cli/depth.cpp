@@ -194,14 +194,18 @@ Run depth_command(CLI::App& app) {
   app.description("Depth for every view of a light field");
   auto settings = std::make_shared<Settings>();
   settings->run.add_to(app);
-  app.add_option("-o,--output", settings->output, "Folder for the result; replaced if it is an "
-                 "older result")->type_name("DIR")->required();
+  app.add_option("-o,--output", settings->output,
+                 "Folder for the result; replaced if it is an "
+                 "older result")
+      ->type_name("DIR")
+      ->required();
   app.add_option("--views", settings->views,
                  "all, centre, or a list of names, indices and ranges: 0,4-6,view_09")
       ->capture_default_str();
-  app.add_option("--min-confidence", settings->min_confidence,
-                 "Leave out (NaN) what is less sure; with auto the probability of being right within "
-                 "0.07 px")
+  app.add_option(
+         "--min-confidence", settings->min_confidence,
+         "Leave out (NaN) what is less sure; with auto the probability of being right within "
+         "0.07 px")
       ->check(CLI::NonNegativeNumber)
       ->type_name("C");
   app.add_option("--format", settings->formats, "Maps in these formats too: exr, npy, png16")

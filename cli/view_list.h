@@ -9,8 +9,8 @@
 
 namespace gigaray::cli {
 
-/// Views that a text means: "all" (empty list), "centre", or a comma-separated list of names, indices
-/// and ranges of indices ("0,4-6,view_09"). Throws Error(kInvalidArgument) naming the part.
+/// Views that a text means: "all" (empty list), "centre", or a comma-separated list of names,
+/// indices and ranges of indices ("0,4-6,view_09"). Throws Error(kInvalidArgument) naming the part.
 std::vector<int> parse_views(const std::string& text, const LightField& light_field);
 
 /// One view by name, index or "centre".

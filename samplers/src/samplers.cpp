@@ -10,8 +10,9 @@ namespace gigaray {
 EpiSampler::EpiSampler(const std::vector<View>& views) {
   for (const View& view : views) {
     if (view.t != views.front().t)
-      throw Error(ErrorCode::kBadInput,
-                  "view " + view.name + " is off the line: a 3D light field has one t for all views");
+      throw Error(
+          ErrorCode::kBadInput,
+          "view " + view.name + " is off the line: a 3D light field has one t for all views");
     s_.push_back(view.s);
   }
 }

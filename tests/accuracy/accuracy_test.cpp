@@ -85,8 +85,7 @@ TEST(Accuracy, ConfidenceIsAProbability) {
     const int centre = centre_view(field.light_field);
     DepthOptions options = auto_options();
     options.views = {centre};
-    const ViewDepth depth =
-        reconstruct(field.light_field, options, {}, RunControl()).view(centre);
+    const ViewDepth depth = reconstruct(field.light_field, options, {}, RunControl()).view(centre);
     double said = 0, sure = 0, right = 0, sure_and_right = 0, all = 0;
     for (int v = 15; v < depth.disparity.height() - 15; ++v)
       for (int u = 15; u < depth.disparity.width() - 15; ++u) {

@@ -120,8 +120,8 @@ TEST(LightField, AViewOfAnotherSizeIsNamedWhenItIsRead) {
   light_field.width = 7;
   light_field.height = 5;
   light_field.views = {{"left", -0.5, 0}, {"right", 0.5, 0}};
-  light_field.pixels = pixels_in_memory(
-      {Image<std::uint16_t>(7, 5, 3), Image<std::uint16_t>(6, 5, 3)}, 8);
+  light_field.pixels =
+      pixels_in_memory({Image<std::uint16_t>(7, 5, 3), Image<std::uint16_t>(6, 5, 3)}, 8);
   EXPECT_EQ(read_view(light_field, 0).width(), 7);
   try {
     read_view(light_field, 1);

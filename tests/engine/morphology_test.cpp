@@ -103,9 +103,9 @@ TEST(CloseCracks, NarrowHolesOfOneSurfaceAreFilledEvenly) {
       estimates.row(v)[u] = u < 6 ? 1 + 0.01f * float(u) : 3;
       confidence.row(v)[u] = 0.1f * float(u);
     }
-  estimates.row(1)[2] = estimates.row(1)[3] = kNoEstimate;  // a crack
+  estimates.row(1)[2] = estimates.row(1)[3] = kNoEstimate;                        // a crack
   estimates.row(0)[5] = estimates.row(1)[5] = estimates.row(2)[5] = kNoEstimate;  // beside a jump
-  estimates.row(2)[0] = kNoEstimate;                                             // at the edge
+  estimates.row(2)[0] = kNoEstimate;                                              // at the edge
   const auto filled = close_cracks(2, 0.1f, estimates, confidence);
   EXPECT_NEAR(estimates.row(1)[2], 1.02, 1e-6);
   EXPECT_NEAR(estimates.row(1)[3], 1.03, 1e-6);

@@ -41,8 +41,8 @@ class Parity : public testing::Test {
     EXPECT_LE(double(difference.apart), kUnstableShare * double(difference.values)) << stage;
   }
 
-  /// The sums of the paths stay in the backend: what can be compared is which hypotheses they choose
-  /// and the scores of those.
+  /// The sums of the paths stay in the backend: what can be compared is which hypotheses they
+  /// choose and the scores of those.
   void check_scanlines(const ParityCase& size) {
     DepthOptions options = auto_options();
     options.winner.refine = false;
@@ -178,8 +178,8 @@ TYPED_TEST(Parity, RobustScores) {
 
 TYPED_TEST(Parity, FirstLookAtSomeOfManyViews) {
   for (const ParityCase& size : {ParityCase{33, 9, {2, 6}}, ParityCase{17, 5, {0, 5}}}) {
-    const auto views = ParityRig<TypeParam>::kKind == LightFieldKind::k3D ? row_of_views(61)
-                                                                        : grid_of_views(7, 9);
+    const auto views =
+        ParityRig<TypeParam>::kKind == LightFieldKind::k3D ? row_of_views(61) : grid_of_views(7, 9);
     ParityBench<TypeParam> bench(size, auto_options(), views, {-0.1, 0.2, 7});
     const auto todo = bench.all_todo(bench.rows());
     const auto bounds = bench.full_bounds(bench.rows());
@@ -221,8 +221,8 @@ TYPED_TEST(Parity, RayMeansAndWhatIsScoredAgainstThem) {
                         compare_scores(bench, bench.rows(), all, full, 1), kScore);
     for (Backend* backend : {bench.reference.get(), bench.opencl.get()})
       backend->score_support(2, bench.rows(), all, full);
-    this->expect_within("score support by means",
-                        compare_scores(bench, bench.rows(), all, full, 1), kScore);
+    this->expect_within("score support by means", compare_scores(bench, bench.rows(), all, full, 1),
+                        kScore);
     for (Backend* backend : {bench.reference.get(), bench.opencl.get()}) {
       backend->restore_reference();
       backend->robust_score(2, around, all, full, ScoreViews::kAll);

@@ -184,7 +184,8 @@ struct WinnerRow {
     bounds.row(0)[0] = {0, 10};
   }
   float find(bool refine) {
-    reference::winner({0, 1}, scores, scores, 0, hypotheses, refine, todo, bounds, disparity, contrast);
+    reference::winner({0, 1}, scores, scores, 0, hypotheses, refine, todo, bounds, disparity,
+                      contrast);
     return disparity.row(0)[0];
   }
 };

@@ -27,9 +27,9 @@ typedef struct BandParams {
   int row_end;
 } BandParams;
 
-/// The rows of the reference view that a step works on. Maps of it are [row - row_begin][pitch] with
-/// pixel u at GIGARAY_PAD + u, as in a band, and pitch is the stride of the band. Score volumes are
-/// [row][u][hypothesis], see score_index().
+/// The rows of the reference view that a step works on. Maps of it are [row - row_begin][pitch]
+/// with pixel u at GIGARAY_PAD + u, as in a band, and pitch is the stride of the band. Score
+/// volumes are [row][u][hypothesis], see score_index().
 typedef struct StripParams {
   int ref;    ///< reference view
   int width;  ///< px
@@ -46,9 +46,9 @@ typedef struct HypothesisParams {
   int pitch;  ///< floats per pixel of a score volume: count, rounded up to whole lanes
 } HypothesisParams;
 
-/// Where another view sees a block of neighbouring pixels (u, v), (u + 1, v), … of the reference view
-/// under one hypothesis: from (u + whole_u + fraction_u, v + whole_v + fraction_v) on. Fractions are in
-/// [0, 1).
+/// Where another view sees a block of neighbouring pixels (u, v), (u + 1, v), … of the reference
+/// view under one hypothesis: from (u + whole_u + fraction_u, v + whole_v + fraction_v) on.
+/// Fractions are in [0, 1).
 typedef struct BlockShift {
   int whole_u;
   int whole_v;

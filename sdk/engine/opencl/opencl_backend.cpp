@@ -7,7 +7,7 @@
 
 #include "gigaray/samplers/any_sampler.h"
 #include "kernels/kernel_params.h"
-#include "opencl/buffer.h"
+#include "opencl/lane_kernel.h"
 #include "opencl/opencl_backend.h"
 #include "opencl/program_cache.h"
 #include "src/view_sets.h"
@@ -16,9 +16,13 @@ namespace gigaray {
 namespace {
 
 using opencl::Buffer;
+using opencl::define;
 using opencl::Kernel;
+using opencl::LaneKernel;
 using opencl::LocalMemory;
+using opencl::pack_sparse_blocks;
 using opencl::round_up;
+using opencl::Scratch;
 using opencl::WorkSize;
 
 static_assert(StripMap<float>::kPad == GIGARAY_PAD);
@@ -31,76 +35,6 @@ constexpr int kScanlineMargin = 16;
 
 /// Local memory of density_score per view, see there; mean_radiance takes 3.
 constexpr int kStagedVectors = 4;
-
-/// A kernel that works on blocks of `lanes` pixels in groups of `group` work-items.
-struct LaneKernel {
-  Kernel kernel;
-  int lanes = 1;
-  int group = 1;
-  int units = 1;        ///< Blocks of lanes that a work-item does.
-  bool staged = false;  ///< STAGE 1, see density_score.cl.
-
-  void run(int width, int rows, int views = 1) const {
-    const std::size_t pixels = std::size_t(lanes) * units;
-    kernel.run(WorkSize(round_up((width + pixels - 1) / pixels, group), rows, views),
-               WorkSize(group, 1, 1));
-  }
-  /// Of kernels with a work-item per pixel: their lanes are hypotheses.
-  void run_pixels(int width, int rows) const {
-    kernel.run(WorkSize(round_up(width, group), rows), WorkSize(group, 1));
-  }
-  /// Local memory of `count` vectors for every work-item of a group.
-  LocalMemory vectors(std::size_t count) const {
-    return {std::max<std::size_t>(count, 1) * lanes * group * sizeof(float)};
-  }
-};
-
-/// A device buffer that only grows.
-struct Scratch {
-  Buffer buffer;
-  std::size_t bytes = 0;
-
-  /// At least `size` bytes. New memory is zero: kernels may load (never use) what was not written,
-  /// and that must not be a NaN.
-  Buffer& at_least(const opencl::Device& device, std::size_t size) {
-    if (size > bytes) {
-      buffer = Buffer();
-      buffer = Buffer::zeroed(device, size);
-      bytes = size;
-    }
-    return buffer;
-  }
-};
-
-std::string define(const std::string& name, int value) {
-  return " -D" + name + "=" + std::to_string(value);
-}
-
-/// Moves the pixels of blocks that are less than half full out of `todo` and puts `lanes` of them
-/// together, as density_score_packed takes them.
-std::vector<int> pack_sparse_blocks(RowRange rows, int lanes, StripMap<std::uint8_t>& todo) {
-  std::vector<int> alone_v, alone_u;
-  for (int v = rows.begin; v < rows.end; ++v) {
-    std::uint8_t* row = todo.row(v);
-    for (int begin = 0; begin < todo.width(); begin += lanes) {
-      const int end = std::min(begin + lanes, todo.width());
-      const auto count = end - begin - std::count(row + begin, row + end, 0);
-      if (count == 0 || 2 * count >= lanes) continue;
-      for (int u = begin; u < end; ++u)
-        if (row[u]) {
-          alone_v.push_back(v - rows.begin);
-          alone_u.push_back(u);
-        }
-      std::fill(row + begin, row + end, 0);
-    }
-  }
-  std::vector<int> packed;
-  for (std::size_t i = 0; i < alone_u.size(); i += lanes)
-    for (const std::vector<int>* values : {&alone_v, &alone_u})
-      for (std::size_t lane = i; lane < i + lanes; ++lane)
-        packed.push_back((*values)[std::min(lane, values->size() - 1)]);  // the last pixel again
-  return packed;
-}
 
 /// The OpenCL twin of a sampler.
 struct SamplerTwin {
@@ -120,8 +54,7 @@ class OpenClBackend : public Backend {
         device_(opencl::Device::open(selection)),
         table_(colour_table(setup.bit_depth, setup.options.score.linear_rgb)) {
     hypotheses_ = {float(setup.hypotheses.min), float(setup.hypotheses.step()),
-                   setup.hypotheses.count,
-                   int(round_up(setup.hypotheses.count, kWidestLanes))};
+                   setup.hypotheses.count, int(round_up(setup.hypotheses.count, kWidestLanes))};
     table_buffer_ = Buffer(device_, std::span<const float>(table_));
   }
 
@@ -149,13 +82,15 @@ class OpenClBackend : public Backend {
     restore_reference();
     band_.row_begin = rows.begin;
     band_.row_end = rows.end;
-    const int bits = encoding == BandEncoding::kBits8 ? 8 : encoding == BandEncoding::kBits16 ? 16 : 32;
+    const int bits = encoding == BandEncoding::kBits8    ? 8
+                     : encoding == BandEncoding::kBits16 ? 16
+                                                         : 32;
     const std::size_t values = std::size_t(rows.size()) * band_.num_views * 3 * band_.width;
     const std::size_t bytes = values * (bits / 8);
     Buffer& source = encoded_.at_least(device_, bytes);
     source.write(std::span(static_cast<const std::byte*>(encoded), bytes));
-    Buffer& band = band_memory_.at_least(
-        device_, std::size_t(rows.size()) * band_.num_views * channels() * band_.stride * sizeof(float));
+    Buffer& band = band_memory_.at_least(device_, std::size_t(rows.size()) * band_.num_views *
+                                                      channels() * band_.stride * sizeof(float));
 
     const std::string options = define("SOURCE_BITS", bits);
     const WorkSize all(band_.num_views, rows.size());
@@ -170,9 +105,9 @@ class OpenClBackend : public Backend {
 
   void edge_confidence(int ref, RowRange rows, StripMap<float>& confidence) override {
     const EdgeOptions& edge = setup_.options.edge;
-    LaneKernel& kernel = lane_kernel("edge_confidence",
-                                     define("RADIUS", edge.radius) + define("SQUARED", edge.squared) +
-                                         define("BOTH_AXES", setup_.kind != LightFieldKind::k3D));
+    LaneKernel& kernel = lane_kernel(
+        "edge_confidence", define("RADIUS", edge.radius) + define("SQUARED", edge.squared) +
+                               define("BOTH_AXES", setup_.kind != LightFieldKind::k3D));
     Buffer& out = map_out(0, rows, sizeof(float));
     kernel.kernel.set_args(band_memory_.buffer, band_, strip(ref, rows), out);
     kernel.run(band_.width, rows.size());
@@ -182,14 +117,12 @@ class OpenClBackend : public Backend {
   void density_score(int ref, RowRange rows, const StripMap<std::uint8_t>& todo,
                      const StripMap<HypothesisBounds>& bounds) override {
     const ScoreOptions& score = setup_.options.score;
-    const std::string options =
-        score_defines() + (score.stop_early ? "" : " -DMOVE_BOUND=0.0f");
+    const std::string options = score_defines() + (score.stop_early ? "" : " -DMOVE_BOUND=0.0f");
     LaneKernel& kernel = lane_kernel("density_score", options);
     Buffer& scores = raw_volume(rows);
     const float floor_views = score.floor_views * float(band_.num_views);
     const int min_views = least_views(band_.num_views);
-    const LocalMemory staged =
-        kernel.vectors(kernel.staged ? kStagedVectors * band_.num_views : 1);
+    const LocalMemory staged = kernel.vectors(kernel.staged ? kStagedVectors * band_.num_views : 1);
     Buffer& tested = upload(2, rows, bounds);
 
     StripMap<std::uint8_t> in_blocks = todo;
@@ -197,8 +130,8 @@ class OpenClBackend : public Backend {
     if (kernel.staged && kernel.lanes > 1 && !score.cubic)
       packed = pack_sparse_blocks(rows, kernel.lanes, in_blocks);
     kernel.kernel.set_args(band_memory_.buffer, band_, strip(ref, rows), block_shifts(ref),
-                           hypotheses_, upload(1, rows, in_blocks), tested, score.bandwidth, min_views,
-                           floor_views, scores, staged);
+                           hypotheses_, upload(1, rows, in_blocks), tested, score.bandwidth,
+                           min_views, floor_views, scores, staged);
     kernel.run(band_.width, rows.size());
     if (!packed.empty()) {
       LaneKernel& sparse = lane_kernel("density_score", options, "density_score_packed");
@@ -215,8 +148,8 @@ class OpenClBackend : public Backend {
 
   void robust_score(int ref, RowRange rows, const StripMap<std::uint8_t>& todo,
                     const StripMap<HypothesisBounds>& bounds, ScoreViews views) override {
-    const ScoreOptions score = own_rows_.size() > 0 ? against_means(setup_.options.score)
-                                                   : setup_.options.score;
+    const ScoreOptions score =
+        own_rows_.size() > 0 ? against_means(setup_.options.score) : setup_.options.score;
     const bool halves = views == ScoreViews::kHalfPlanes;
     LaneKernel& kernel =
         lane_kernel("robust_score", define("CUBIC", score.cubic) + define("HALF_PLANES", halves));
@@ -303,9 +236,9 @@ class OpenClBackend : public Backend {
     for (int i = 0; i < 4; ++i) {
       const auto [du, dv] = directions[i];
       kernel.kernel.set_args(own.buffer, own.band, strip(own.view, rows), hypotheses_, tested,
-                             supported_scores_.buffer, score_rows_.begin, du, dv, support.small_price,
-                             support.jump_price, support.jump_sigma_colour, int(i > 0), paths,
-                             LocalMemory{states * sizeof(float)});
+                             supported_scores_.buffer, score_rows_.begin, du, dv,
+                             support.small_price, support.jump_price, support.jump_sigma_colour,
+                             int(i > 0), paths, LocalMemory{states * sizeof(float)});
       const std::size_t group = kernel.group;
       if (dv == 0)
         kernel.kernel.run(WorkSize(rows.size() * group, 1), WorkSize(group, 1));
@@ -337,9 +270,9 @@ class OpenClBackend : public Backend {
     Buffer& best = map_out(3, rows, sizeof(float));
     Buffer& lead = map_out(4, rows, sizeof(float));
     const int search = chosen_by_ == winner_scores_ ? 0 : kScanlineSearch;
-    kernel.kernel.set_args(strip(0, rows), hypotheses_, upload(1, rows, todo), upload(2, rows, bounds),
-                           chosen_by_->buffer, winner_scores_->buffer, score_rows_.begin, search, best,
-                           lead);
+    kernel.kernel.set_args(strip(0, rows), hypotheses_, upload(1, rows, todo),
+                           upload(2, rows, bounds), chosen_by_->buffer, winner_scores_->buffer,
+                           score_rows_.begin, search, best, lead);
     kernel.run_pixels(band_.width, rows.size());
     download(best, rows, disparity);
     download(lead, rows, contrast);
@@ -351,7 +284,8 @@ class OpenClBackend : public Backend {
     LaneKernel& kernel = lane_kernel("winner", "", "score_of_estimate");
     Buffer& out = map_out(4, rows, sizeof(float));
     kernel.kernel.set_args(strip(0, rows), hypotheses_, upload(1, rows, todo),
-                           winner_scores_->buffer, score_rows_.begin, upload(3, rows, disparity), out);
+                           winner_scores_->buffer, score_rows_.begin, upload(3, rows, disparity),
+                           out);
     kernel.run_pixels(band_.width, rows.size());
     download(out, rows, scores);
   }
@@ -369,16 +303,16 @@ class OpenClBackend : public Backend {
                         const StripMap<float>& in, StripMap<float>& out) override {
     const OwnPixels own = reference_pixels(ref);
     const bool bilateral = std::isfinite(tolerance);
-    LaneKernel& kernel = lane_kernel(
-        "bilateral_median", define("RADIUS", radius) + define("BILATERAL", bilateral));
+    LaneKernel& kernel =
+        lane_kernel("bilateral_median", define("RADIUS", radius) + define("BILATERAL", bilateral));
     const RowRange around = grown(rows, radius, band_.height);
     // A plain median looks at no colour, but a kernel argument must be some buffer.
     Buffer& band = bilateral ? own.buffer : views_buffer_;
     Buffer& result = map_out(3, rows, sizeof(float));
     const std::size_t window = std::size_t(2 * radius + 1) * (2 * radius + 1);
     kernel.kernel.set_args(band, own.band, strip(own.view, rows), upload(4, around, in),
-                           around.begin,
-                           bilateral ? tolerance : 0.0f, result, kernel.vectors(window));
+                           around.begin, bilateral ? tolerance : 0.0f, result,
+                           kernel.vectors(window));
     kernel.run(band_.width, rows.size());
     download(result, rows, out);
   }
@@ -418,8 +352,7 @@ class OpenClBackend : public Backend {
 
   void downsample(RowRange small_rows, float* small) override {
     const int small_width = (band_.width + 1) / 2;
-    const std::size_t values =
-        std::size_t(small_rows.size()) * band_.num_views * 3 * small_width;
+    const std::size_t values = std::size_t(small_rows.size()) * band_.num_views * 3 * small_width;
     Buffer& out = encoded_.at_least(device_, values * sizeof(float));
     LaneKernel& kernel = lane_kernel("downsample", "");
     kernel.kernel.set_args(band_memory_.buffer, band_, small_width, small_rows.begin, out);
@@ -552,8 +485,8 @@ class OpenClBackend : public Backend {
       for (const auto& [name, value] : own->second) tuning[name] = value;
     if (tuning.contains("STAGE")) {
       // Only where local memory holds them.
-      const std::size_t bytes = std::size_t(kStagedVectors) * sampler_.num_views * tuning.at("LANES") *
-                                tuning.at("GROUP") * sizeof(float);
+      const std::size_t bytes = std::size_t(kStagedVectors) * sampler_.num_views *
+                                tuning.at("LANES") * tuning.at("GROUP") * sizeof(float);
       if (bytes > device_.info().local_memory) tuning["STAGE"] = 0;
     }
     return tuning;
@@ -569,15 +502,15 @@ class OpenClBackend : public Backend {
   int active_count_ = 0;
   int shifts_ref_ = -1;  ///< The view that shifts_ is for.
   RowRange score_rows_;
-  RowRange raw_rows_;                ///< of raw_scores_
+  RowRange raw_rows_;                 ///< of raw_scores_
   Scratch* winner_scores_ = nullptr;  ///< the scores of score_rows_
   Scratch* chosen_by_ = nullptr;      ///< path_scores_ after a scan-line step, else the scores
 
   Buffer table_buffer_, active_buffer_, views_buffer_;
   std::map<ScoreViews, ViewSet> view_sets_;
   RowRange own_rows_;  ///< of own_pixels_, which stand for the reference view; empty: they don't
-  Scratch shifts_, packed_, encoded_, band_memory_, own_pixels_, means_, raw_scores_, supported_scores_, path_scores_,
-      maps_[6];
+  Scratch shifts_, packed_, encoded_, band_memory_, own_pixels_, means_, raw_scores_,
+      supported_scores_, path_scores_, maps_[6];
   std::map<std::string, Kernel> plain_kernels_;
   std::map<std::string, LaneKernel> lane_kernels_;
 };

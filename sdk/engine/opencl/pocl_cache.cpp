@@ -15,8 +15,8 @@ namespace {
 
 fs::path record_file(const fs::path& folder) { return folder.string() + ".sizes"; }
 
-/// The folder of the program that a file belongs to: the first two names of its path, as PoCL splits
-/// its hashes.
+/// The folder of the program that a file belongs to: the first two names of its path, as PoCL
+/// splits its hashes.
 fs::path program_of(const fs::path& relative) {
   auto name = relative.begin();
   fs::path program = *name++;

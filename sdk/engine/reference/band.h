@@ -52,15 +52,16 @@ inline std::array<float, 4> tap_weights(float f, bool cubic) {
           0.5f * f3 - 0.5f * f2};
 }
 
-/// Positions this near to a pixel centre are that centre, px. Otherwise rounding would decide whether
-/// the last column is inside the picture.
+/// Positions this near to a pixel centre are that centre, px. Otherwise rounding would decide
+/// whether the last column is inside the picture.
 inline double snapped(double x) {
   constexpr double kSnap = 1e-4;
   const double whole = std::round(x);
   return std::abs(x - whole) < kSnap ? whole : x;
 }
 
-/// The value of a view at a real position; empty outside the picture. Taps beyond an edge repeat it.
+/// The value of a view at a real position; empty outside the picture. Taps beyond an edge repeat
+/// it.
 inline std::optional<Sample> sample_at(const Band& band, int view, double u, double v, bool cubic) {
   const LevelShape& shape = band.shape;
   u = snapped(u);

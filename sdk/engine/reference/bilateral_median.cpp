@@ -17,7 +17,8 @@ void bilateral_median(const Band& band, int ref, RowRange rows, int radius, floa
       for (int y = around.begin; y < around.end; ++y) {
         for (int x = std::max(u - radius, 0); x <= std::min(u + radius, in.width() - 1); ++x) {
           if (std::isnan(in.row(y)[x])) continue;
-          if (bilateral && !(colour_distance(band.pixel(ref, x, y), band.pixel(ref, u, v)) < tolerance))
+          if (bilateral &&
+              !(colour_distance(band.pixel(ref, x, y), band.pixel(ref, u, v)) < tolerance))
             continue;
           window.push_back(in.row(y)[x]);
         }

@@ -15,14 +15,18 @@ struct Scores {
 
   Scores() = default;
   Scores(RowRange rows, int count, int width)
-      : rows(rows), count(count), width(width), data(std::size_t(rows.size()) * count * width, -1) {}
+      : rows(rows),
+        count(count),
+        width(width),
+        data(std::size_t(rows.size()) * count * width, -1) {}
   float& at(int u, int v, int i) {
     return data[(std::size_t(v - rows.begin) * count + i) * width + u];
   }
   float at(int u, int v, int i) const { return const_cast<Scores*>(this)->at(u, v, i); }
 };
 
-/// Kernel of colour around `centre`, 0 … 1: Epanechnikov (eq. 4), or a triangle for the robust score.
+/// Kernel of colour around `centre`, 0 … 1: Epanechnikov (eq. 4), or a triangle for the robust
+/// score.
 float colour_kernel(const Sample& sample, const Sample& centre, const ScoreOptions& options);
 
 /// Mean radiance: `iterations` mean-shift updates from `start` (eq. 5).
@@ -31,7 +35,8 @@ Sample mean_shift(const std::vector<Sample>& samples, Sample start, const ScoreO
 
 /// What all views see of a ray (eq. 3, 9, 10); views that don't see it are left out.
 template <RaySampler S>
-std::vector<Sample> gather(const Band& band, const S& sampler, int ref, const Ray& ray, bool cubic) {
+std::vector<Sample> gather(const Band& band, const S& sampler, int ref, const Ray& ray,
+                           bool cubic) {
   std::vector<Sample> samples;
   for (int other = 0; other < sampler.num_views(); ++other) {
     const auto there = sampler.locate(ref, other, ray);

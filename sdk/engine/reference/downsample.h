@@ -6,7 +6,8 @@
 
 namespace gigaray::reference {
 
-/// 7×7 Gaussian of σ = √0.5, then every second pixel. small: [small_rows][view][3][(width + 1) / 2].
+/// 7×7 Gaussian of σ = √0.5, then every second pixel. small: [small_rows][view][3][(width + 1) /
+/// 2].
 void downsample(const Band& band, RowRange small_rows, float* small);
 
 }  // namespace gigaray::reference

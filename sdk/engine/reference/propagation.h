@@ -6,13 +6,14 @@
 
 namespace gigaray::reference {
 
-/// Writes accepted estimates into every active view that sees them in a similar colour (section 4.4).
-/// estimates: [state_rows][active view][width].
+/// Writes accepted estimates into every active view that sees them in a similar colour
+/// (section 4.4). estimates: [state_rows][active view][width].
 template <RaySampler S>
 void propagation(const Band& band, const S& sampler, int ref, RowRange rows,
                  const std::vector<int>& active_views, float tolerance,
                  const StripMap<float>& disparity, const StripMap<float>& confidence,
-                 const StripMap<Radiance>& radiance, RowRange state_rows, PackedEstimate* estimates) {
+                 const StripMap<Radiance>& radiance, RowRange state_rows,
+                 PackedEstimate* estimates) {
   const int width = band.shape.width;
   for (int v = rows.begin; v < rows.end; ++v) {
     for (int u = 0; u < width; ++u) {
@@ -26,15 +27,15 @@ void propagation(const Band& band, const S& sampler, int ref, RowRange rows,
         const double x = std::floor(there->u + 0.5), y = std::floor(there->v + 0.5);
         if (x < 0 || x >= width || y < 0 || y >= band.shape.height) continue;
         if (!state_rows.contains(int(y))) continue;
-        const bool similar =
-            view == ref ||
-            colour_distance(band.pixel(view, int(x), int(y)), {mean.r, mean.g, mean.b}) < tolerance;
+        const bool similar = view == ref || colour_distance(band.pixel(view, int(x), int(y)),
+                                                            {mean.r, mean.g, mean.b}) < tolerance;
         if (!similar) continue;
         PackedEstimate& estimate =
-            estimates[(std::size_t(int(y) - state_rows.begin) * active_views.size() + target) * width +
+            estimates[(std::size_t(int(y) - state_rows.begin) * active_views.size() + target) *
+                          width +
                       int(x)];
-        estimate = std::max(estimate,
-                            pack_estimate(float(there->hypothesis), confidence.row(v)[u]));
+        estimate =
+            std::max(estimate, pack_estimate(float(there->hypothesis), confidence.row(v)[u]));
       }
     }
   }

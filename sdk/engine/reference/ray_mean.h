@@ -6,8 +6,8 @@
 
 namespace gigaray::reference {
 
-/// Mean colours along the rays of the reference view's pixels: row v · channels + c of `means` holds
-/// channel c of row v; gradients are left alone. NaN disparity: the pixel stays as it is.
+/// Mean colours along the rays of the reference view's pixels: row v · channels + c of `means`
+/// holds channel c of row v; gradients are left alone. NaN disparity: the pixel stays as it is.
 template <RaySampler S>
 void ray_mean(const Band& band, const S& sampler, int ref, RowRange rows,
               const ScoreOptions& options, const StripMap<float>& disparity,

@@ -64,8 +64,8 @@ class ReferenceBackend : public Backend {
         own_.data.empty() ? setup_.options.score : against_means(setup_.options.score);
     score_rays(rows, todo, bounds, [&](const Ray& ray) {
       return reference::robust_score(band_, sampler_, ref, ray,
-                                     own.band.pixel(own.view, int(ray.u), int(ray.v)),
-                                     score, members, halves ? kHalfPlanes : 1);
+                                     own.band.pixel(own.view, int(ray.u), int(ray.v)), score,
+                                     members, halves ? kHalfPlanes : 1);
     });
   }
   void ray_mean(int ref, RowRange rows, const StripMap<float>& disparity,
@@ -85,8 +85,8 @@ class ReferenceBackend : public Backend {
   void score_support(int ref, RowRange rows, const StripMap<std::uint8_t>& todo,
                      const StripMap<HypothesisBounds>& bounds) override {
     const OwnPixels own = reference_pixels(ref);
-    supported_scores_ = reference::score_support(own.band, own.view, rows, setup_.options.support, todo,
-                                                 bounds, raw_scores_);
+    supported_scores_ = reference::score_support(own.band, own.view, rows, setup_.options.support,
+                                                 todo, bounds, raw_scores_);
     winner_takes(supported_scores_);
   }
   void slanted_support(int ref, RowRange rows, const StripMap<std::uint8_t>& todo,
@@ -94,21 +94,22 @@ class ReferenceBackend : public Backend {
                        const StripMap<Slope>& slopes) override {
     const OwnPixels own = reference_pixels(ref);
     supported_scores_ =
-        reference::slanted_support(own.band, own.view, rows, setup_.options.support, setup_.hypotheses, todo,
-                                   bounds, slopes, raw_scores_);
+        reference::slanted_support(own.band, own.view, rows, setup_.options.support,
+                                   setup_.hypotheses, todo, bounds, slopes, raw_scores_);
     winner_takes(supported_scores_);
   }
   void scanline(int ref, RowRange rows, const StripMap<std::uint8_t>& todo) override {
     const OwnPixels own = reference_pixels(ref);
-    path_scores_ =
-        reference::scanline(own.band, own.view, rows, setup_.options.support, todo, supported_scores_);
+    path_scores_ = reference::scanline(own.band, own.view, rows, setup_.options.support, todo,
+                                       supported_scores_);
     chosen_by_ = &path_scores_;
   }
   void slope_fit(int ref, RowRange rows, const StripMap<float>& in,
                  StripMap<Slope>& slopes) override {
     const OwnPixels own = reference_pixels(ref);
     const float step = float(setup_.hypotheses.step());
-    reference::slope_fit(own.band, own.view, rows, step, step * setup_.options.support.max_slope, in, slopes);
+    reference::slope_fit(own.band, own.view, rows, step, step * setup_.options.support.max_slope,
+                         in, slopes);
   }
   void winner(RowRange rows, const StripMap<std::uint8_t>& todo,
               const StripMap<HypothesisBounds>& bounds, StripMap<float>& disparity,
@@ -164,8 +165,7 @@ class ReferenceBackend : public Backend {
         if (!todo.row(v)[u]) continue;
         const auto [first, last] = bounds.row(v)[u];
         for (int i = first; i <= last; ++i)
-          raw_scores_.at(u, v, i) =
-              score_of(Ray{double(u), double(v), setup_.hypotheses.value(i)});
+          raw_scores_.at(u, v, i) = score_of(Ray{double(u), double(v), setup_.hypotheses.value(i)});
       }
     winner_takes(raw_scores_);
   }

@@ -14,13 +14,14 @@ namespace gigaray::reference {
 /// Triangle kernels of colour and gradient around `own`, 0 … 1 (docs/method.md).
 float robust_kernel(const Sample& sample, const Sample& own, const ScoreOptions& options);
 
-/// Score of a ray with colours `own` under one hypothesis: the mean of the kernels over the views; -1
-/// when too few see it. parts 1: over the views with bit 0 of their `members`. parts 8: the best of the
-/// means over half-plane i, the views with bit i.
+/// Score of a ray with colours `own` under one hypothesis: the mean of the kernels over the views;
+/// -1 when too few see it. parts 1: over the views with bit 0 of their `members`. parts 8: the best
+/// of the means over half-plane i, the views with bit i.
 template <RaySampler S>
 float robust_score(const Band& band, const S& sampler, int ref, const Ray& ray, const Sample& own,
                    const ScoreOptions& options, std::span<const std::uint8_t> members, int parts) {
-  const auto used = std::count_if(members.begin(), members.end(), [](auto bits) { return bits != 0; });
+  const auto used =
+      std::count_if(members.begin(), members.end(), [](auto bits) { return bits != 0; });
   const float least = std::max(1.0f, std::ceil(options.min_views * float(used)));
   const float floor_views = (parts == 1 ? options.floor_views : kLeastHalfPlane) * float(used);
   std::array<float, kHalfPlanes> sums{}, counts{};

@@ -24,10 +24,11 @@ void follow(const Band& band, int ref, const SupportOptions& options,
     }
     for (int i = 0; i <= last; ++i) now[i] = scores.at(at.u, at.v, i);
     if (!before.empty()) {
-      const float change = colour_distance(band.pixel(ref, at.u, at.v),
-                                           band.pixel(ref, at.u - du, at.v - dv));
-      const float jump = std::max(options.jump_price * std::exp(-change / options.jump_sigma_colour),
-                                  options.small_price / 2);
+      const float change =
+          colour_distance(band.pixel(ref, at.u, at.v), band.pixel(ref, at.u - du, at.v - dv));
+      const float jump =
+          std::max(options.jump_price * std::exp(-change / options.jump_sigma_colour),
+                   options.small_price / 2);
       const float two_steps = std::min(options.small_price, jump);
       const float best = *std::max_element(before.begin(), before.end());
       for (int i = 0; i <= last; ++i) {

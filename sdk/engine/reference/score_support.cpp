@@ -5,8 +5,8 @@
 namespace gigaray::reference {
 namespace {
 
-/// Supported scores of a strip. score_of(x, y, i) is what the neighbour (x, y) of (u, v) contributes to
-/// hypothesis i.
+/// Supported scores of a strip. score_of(x, y, i) is what the neighbour (x, y) of (u, v)
+/// contributes to hypothesis i.
 template <class ScoreOf>
 Scores support(const Band& band, int ref, RowRange rows, const SupportOptions& options,
                const StripMap<std::uint8_t>& todo, const StripMap<HypothesisBounds>& bounds,

@@ -11,8 +11,8 @@ Scores score_support(const Band& band, int ref, RowRange rows, const SupportOpti
                      const StripMap<std::uint8_t>& todo, const StripMap<HypothesisBounds>& bounds,
                      const Scores& scores);
 
-/// The same along the slope of the surface: a neighbour counts with its score at the hypothesis that
-/// the surface through the pixel has there, linearly interpolated.
+/// The same along the slope of the surface: a neighbour counts with its score at the hypothesis
+/// that the surface through the pixel has there, linearly interpolated.
 Scores slanted_support(const Band& band, int ref, RowRange rows, const SupportOptions& options,
                        const HypothesisRange& hypotheses, const StripMap<std::uint8_t>& todo,
                        const StripMap<HypothesisBounds>& bounds, const StripMap<Slope>& slopes,

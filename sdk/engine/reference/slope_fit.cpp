@@ -27,7 +27,8 @@ void slope_fit(const Band& band, int ref, RowRange rows, float step, float max_s
             const float residual = (rise - slope.along_u * du - slope.along_v * dv) / scale;
             const float biweight = std::max(1 - residual * residual, 0.0f);
             const float colour =
-                colour_distance(band.pixel(ref, u + du, v + dv), band.pixel(ref, u, v)) / kSigmaColour;
+                colour_distance(band.pixel(ref, u + du, v + dv), band.pixel(ref, u, v)) /
+                kSigmaColour;
             const float space = float(du * du + dv * dv) / (kSigmaSpace * kSigmaSpace);
             const float w = std::exp(-(colour * colour + space) / 2) * biweight * biweight;
             uu += w * du * du;

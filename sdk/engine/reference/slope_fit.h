@@ -6,9 +6,9 @@
 
 namespace gigaray::reference {
 
-/// Slope of the surface at every estimate: a robust plane through it and those around it. Weights are
-/// Gaussians of colour and distance, times Tukey's biweight of the residual, with ever smaller scale.
-/// step: between hypotheses, the unit of that scale; max_slope: hypothesis units per px.
+/// Slope of the surface at every estimate: a robust plane through it and those around it. Weights
+/// are Gaussians of colour and distance, times Tukey's biweight of the residual, with ever smaller
+/// scale. step: between hypotheses, the unit of that scale; max_slope: hypothesis units per px.
 void slope_fit(const Band& band, int ref, RowRange rows, float step, float max_slope,
                const StripMap<float>& in, StripMap<Slope>& slopes);
 

@@ -5,9 +5,9 @@
 namespace gigaray::reference {
 
 void winner(RowRange rows, const Scores& chosen_by, const Scores& scores, int search,
-            const HypothesisRange& hypotheses, bool refine,
-            const StripMap<std::uint8_t>& todo, const StripMap<HypothesisBounds>& bounds,
-            StripMap<float>& disparity, StripMap<float>& contrast) {
+            const HypothesisRange& hypotheses, bool refine, const StripMap<std::uint8_t>& todo,
+            const StripMap<HypothesisBounds>& bounds, StripMap<float>& disparity,
+            StripMap<float>& contrast) {
   for (int v = rows.begin; v < rows.end; ++v) {
     for (int u = 0; u < scores.width; ++u) {
       disparity.row(v)[u] = kNoEstimate;

@@ -33,8 +33,8 @@ float calibrated_confidence(float contrast) {
   for (std::size_t i = 1; i < kPoints.size(); ++i) {
     const Point &low = kPoints[i - 1], &high = kPoints[i];
     if (contrast <= high.contrast)
-      return low.right + (high.right - low.right) * (contrast - low.contrast) /
-                             (high.contrast - low.contrast);
+      return low.right +
+             (high.right - low.right) * (contrast - low.contrast) / (high.contrast - low.contrast);
   }
   return kPoints.back().right;
 }

@@ -79,10 +79,10 @@ void DepthOptions::check() const {
 
 ScoreOptions against_means(ScoreOptions score) {
   constexpr float kNarrower = 0.75f;  // a little more than 1 / sqrt 2: the mean has some noise left
-  score.bandwidth = std::max(kNarrower * score.bandwidth, std::min(score.bandwidth, kLeastBandwidth));
-  score.gradient_bandwidth =
-      std::max(kNarrower * score.gradient_bandwidth,
-               std::min(score.gradient_bandwidth, kLeastGradientBandwidth));
+  score.bandwidth =
+      std::max(kNarrower * score.bandwidth, std::min(score.bandwidth, kLeastBandwidth));
+  score.gradient_bandwidth = std::max(kNarrower * score.gradient_bandwidth,
+                                      std::min(score.gradient_bandwidth, kLeastGradientBandwidth));
   return score;
 }
 

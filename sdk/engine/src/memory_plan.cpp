@@ -34,8 +34,8 @@ double free_memory() {
 }
 
 struct LevelCost {
-  double stores = 0;    // bytes of everything that is kept of the level
-  double band_row = 0;  // bytes of one row of a band, on the device and beside it
+  double stores = 0;      // bytes of everything that is kept of the level
+  double band_row = 0;    // bytes of one row of a band, on the device and beside it
   double row_floats = 0;  // bytes of one row in the band buffer
 };
 
@@ -93,8 +93,8 @@ class Planner {
     all_rows_ = row * (light_field.height + finest.halo + finest.multiple);
   }
 
-  /// Bytes for the scores of a strip. All rows if they fit into a part of the memory: else a strip is
-  /// scored again for the second look.
+  /// Bytes for the scores of a strip. All rows if they fit into a part of the memory: else a strip
+  /// is scored again for the second look.
   double usual_volume(double limit) const {
     return std::min(std::clamp(limit / 12, least_volume_, std::max(kLargestVolume, least_volume_)),
                     all_rows_);
@@ -108,7 +108,8 @@ class Planner {
     // Maps of one view: todo, bounds (twice with support), disparity, confidence, median, radiance,
     // slopes, means along rays (5 channels).
     const double pitch = StripMap<float>::pitch_for(light_field_.width);
-    const double view_maps = pitch * light_field_.height * (40 + (support.slanted ? 24 : 0) + (options_.score.ray_mean ? 24 : 0));
+    const double view_maps = pitch * light_field_.height *
+                             (40 + (support.slanted ? 24 : 0) + (options_.score.ray_mean ? 24 : 0));
     const double threads = std::min(4u, std::max(1u, std::thread::hardware_concurrency()));
     const double decoding = threads * 12.0 * light_field_.width * light_field_.height;
     return kProcessBytes + copies * volume + std::max(view_maps, decoding);
@@ -153,8 +154,7 @@ class Planner {
     double peak_band = 0;
     for (const LevelShape& shape : shapes_) {
       const LevelCost cost = cost_of(shape, light_field_, options_, active_, true);
-      const int rows =
-          std::min(strip_needs(options_.support, shape.level).multiple, shape.height);
+      const int rows = std::min(strip_needs(options_.support, shape.level).multiple, shape.height);
       peak_band = std::max(peak_band, loaded_rows(shape, rows) * cost.band_row);
     }
     return fixed_bytes(least_volume()) + peak_band;

@@ -12,20 +12,20 @@ namespace gigaray {
 /// Sizes of one level and how it is walked.
 struct LevelPlan {
   LevelShape shape;
-  int band_rows = 0;  ///< Rows of a band without halo.
-  int halo = 0;       ///< Rows around a band that the steps look at in one view.
+  int band_rows = 0;   ///< Rows of a band without halo.
+  int halo = 0;        ///< Rows around a band that the steps look at in one view.
   int strip_rows = 0;  ///< Rows whose scores are held at once, without those that support them.
 };
 
 /// How a run fits into the memory it may take.
 struct MemoryPlan {
   std::vector<LevelPlan> levels;
-  std::string work_folder;        ///< Where rows are stored; empty: in memory.
+  std::string work_folder;  ///< Where rows are stored; empty: in memory.
   Forecast forecast;
 };
 
-/// options: resolved (range, hypotheses). Throws Error(kOutOfMemory) when even one row at a time does
-/// not fit.
+/// options: resolved (range, hypotheses). Throws Error(kOutOfMemory) when even one row at a time
+/// does not fit.
 MemoryPlan plan_memory(const LightField& light_field, const DepthOptions& options,
                        const HypothesisRange& hypotheses);
 

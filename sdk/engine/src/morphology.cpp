@@ -118,9 +118,8 @@ StripMap<std::uint8_t> beside_jumps(const StripMap<float>& map, float jump, int 
   const auto differ = [&](float a, float b) { return std::abs(a - b) > jump; };
   for (int v = rows.begin; v < rows.end; ++v)
     for (int u = 0; u < width; ++u)
-      beside.row(v)[u] =
-          (u + 1 < width && differ(map.row(v)[u], map.row(v)[u + 1])) ||
-          (v + 1 < rows.end && differ(map.row(v)[u], map.row(v + 1)[u]));
+      beside.row(v)[u] = (u + 1 < width && differ(map.row(v)[u], map.row(v)[u + 1])) ||
+                         (v + 1 < rows.end && differ(map.row(v)[u], map.row(v + 1)[u]));
   StripMap<HypothesisBounds> unused(width, rows);
   dilate(reach, rows.end, beside, unused);
   return beside;

@@ -6,8 +6,8 @@
 
 namespace gigaray {
 
-/// Opening of a mask by a cross of 3 px: removes isolated pixels and keeps lines of two. mask: rows of
-/// `rows` and two more on both sides where the picture has them. Returns the rows of `rows`.
+/// Opening of a mask by a cross of 3 px: removes isolated pixels and keeps lines of two. mask: rows
+/// of `rows` and two more on both sides where the picture has them. Returns the rows of `rows`.
 StripMap<std::uint8_t> open_mask(const StripMap<std::uint8_t>& mask, RowRange rows, int height);
 
 /// Pixels within `radius` (a square) of a pixel to do, with bounds that cover those of all such
@@ -16,8 +16,8 @@ void dilate(int radius, int height, StripMap<std::uint8_t>& todo,
             StripMap<HypothesisBounds>& bounds);
 
 /// Estimates carried over from other views leave cracks where a surface is wider in this one. Fills
-/// holes of up to `width` pixels in a row or a column between two estimates no more than `apart` apart,
-/// evenly from one to the other. Returns what was filled; confidence: the lower of the two.
+/// holes of up to `width` pixels in a row or a column between two estimates no more than `apart`
+/// apart, evenly from one to the other. Returns what was filled; confidence: the lower of the two.
 StripMap<std::uint8_t> close_cracks(int width, float apart, StripMap<float>& estimates,
                                     StripMap<float>& confidence);
 

@@ -109,7 +109,8 @@ void Pipeline::begin_level(int level) {
   if (level == 0) {
     LevelState state;
     state.shape = shape;
-    state.pixels = make_store(shape.height, views * width * 3 * (light_field_.pixels->bit_depth() / 8));
+    state.pixels =
+        make_store(shape.height, views * width * 3 * (light_field_.pixels->bit_depth() / 8));
     levels_.push_back(std::move(state));
     decode();
   }
@@ -152,7 +153,7 @@ void Pipeline::load_band(RowRange band) {
   if (band == loaded_band_) return;
   const StageTimer timer(seconds_, "load");
   const RowRange rows = rows_needed(own_rows);
-  const BandEncoding encoding = level_ > 0                                  ? BandEncoding::kFloat
+  const BandEncoding encoding = level_ > 0                              ? BandEncoding::kFloat
                                 : light_field_.pixels->bit_depth() == 8 ? BandEncoding::kBits8
                                                                         : BandEncoding::kBits16;
   backend_.load_band(rows, levels_[level_].pixels.open(rows, band_scratch_), encoding);
@@ -309,10 +310,11 @@ void Pipeline::coarsen() {
   for (int v = 0; v < coarse.shape.height; ++v) {
     control_.throw_if_cancelled();
     const RowRange rows{2 * v, std::min(2 * v + 2, fine.shape.height)};
-    const auto* all_estimates = reinterpret_cast<const PackedEstimate*>(
-        fine.estimates.open(rows, estimate_scratch));
+    const auto* all_estimates =
+        reinterpret_cast<const PackedEstimate*>(fine.estimates.open(rows, estimate_scratch));
     const Search* all_search =
-        level_ > 0 ? reinterpret_cast<const Search*>(fine.search.open(rows, search_scratch)) : nullptr;
+        level_ > 0 ? reinterpret_cast<const Search*>(fine.search.open(rows, search_scratch))
+                   : nullptr;
     for (std::size_t i = 0; i < active; ++i) {
       for (int y = 0; y < rows.size(); ++y) {
         const std::size_t at = (std::size_t(y) * active + i) * width;

@@ -15,8 +15,8 @@
 
 namespace gigaray {
 
-/// What is kept of one level. Rows of all views (or of the active ones) side by side, so that a band
-/// is one sequential read.
+/// What is kept of one level. Rows of all views (or of the active ones) side by side, so that a
+/// band is one sequential read.
 struct LevelState {
   LevelShape shape;
   RowStore pixels;     ///< [v][view]: level 0 [u][3] as decoded, else [3][u] floats
@@ -25,9 +25,9 @@ struct LevelState {
   RowStore search;     ///< [v][active view][u] Search; empty at level 0
 };
 
-/// Walks the levels from fine to coarse, in each the views from the centre outwards, in each the bands
-/// from top to bottom. The order of views and levels is fixed; a view is complete before the next one
-/// starts. That makes the result independent of the bands.
+/// Walks the levels from fine to coarse, in each the views from the centre outwards, in each the
+/// bands from top to bottom. The order of views and levels is fixed; a view is complete before the
+/// next one starts. That makes the result independent of the bands.
 class Pipeline {
  public:
   Pipeline(const LightField& light_field, const DepthOptions& options,
@@ -46,16 +46,16 @@ class Pipeline {
   struct ViewMaps {
     StripMap<std::uint8_t> todo;
     StripMap<HypothesisBounds> bounds;
-    StripMap<float> disparity;   ///< Winners of this pass and what the view already has.
+    StripMap<float> disparity;  ///< Winners of this pass and what the view already has.
     StripMap<float> confidence;
   };
 
   /// One look at the pixels to do, with what was learned from the one before.
   struct ScorePass {
     StripMap<std::uint8_t> todo;
-    StripMap<std::uint8_t> score_todo;             ///< and what supports them
+    StripMap<std::uint8_t> score_todo;  ///< and what supports them
     StripMap<HypothesisBounds> score_bounds;
-    const StripMap<Slope>* slopes = nullptr;       ///< null: support without slopes
+    const StripMap<Slope>* slopes = nullptr;  ///< null: support without slopes
     ScoreViews views = ScoreViews::kAll;
     bool scanline = false;
   };

@@ -11,7 +11,8 @@
 namespace gigaray {
 namespace {
 
-// A silhouette, and what is farther than it, in hypotheses: a difference that the outermost views see.
+// A silhouette, and what is farther than it, in hypotheses: a difference that the outermost views
+// see.
 constexpr float kJump = 7, kFarther = 3;
 // Where the nearer surface can hide a point from some views, px.
 constexpr int kBesideJump = 10;
@@ -39,9 +40,8 @@ void Pipeline::score_view(int view, ViewMaps& maps) {
   ScorePass pass = make_pass(maps.todo, maps);
   pass.scanline = finest && options_.support.scanline;
   // Where the last look has to score anew anyway, or takes very many views, a few do for the first.
-  const bool few_first =
-      again && options_.score.gradient &&
-      (options_.score.ray_mean || light_field_.num_views() > kManyViews);
+  const bool few_first = again && options_.score.gradient &&
+                         (options_.score.ray_mean || light_field_.num_views() > kManyViews);
   if (few_first) pass.views = ScoreViews::kFirst;
   score_strips(view, pass, maps);
   if (!again) return;
@@ -67,7 +67,6 @@ void Pipeline::score_view(int view, ViewMaps& maps) {
 
 void Pipeline::look_behind(int view, const StripMap<Slope>& slopes, const StripMap<float>& smooth,
                            ViewMaps& maps) {
-
   const RowRange all{0, levels_[level_].shape.height};
   StripMap<std::uint8_t> beside =
       beside_jumps(smooth, kJump * float(hypotheses_.step()), kBesideJump);
@@ -156,13 +155,14 @@ void Pipeline::take_winners(int view, RowRange rows, const ScorePass& pass, View
     }
 }
 
-// Beside a silhouette half of the views see the nearer surface, and its score wins there too: where the
-// best half of the views likes something farther better, that is the answer.
+// Beside a silhouette half of the views see the nearer surface, and its score wins there too: where
+// the best half of the views likes something farther better, that is the answer.
 void Pipeline::step_back(RowRange rows, const ScorePass& pass, ViewMaps& maps) {
   const StageTimer timer(seconds_, "winner");
   const int width = levels_[level_].shape.width;
   const float farther = kFarther * float(hypotheses_.step());
-  StripMap<float> disparity(width, rows), contrast(width, rows), own(width, rows), best(width, rows);
+  StripMap<float> disparity(width, rows), contrast(width, rows), own(width, rows),
+      best(width, rows);
   backend_.winner(rows, pass.todo, maps.bounds, disparity, contrast);
   backend_.score_of_estimate(rows, pass.todo, disparity, best);
   backend_.score_of_estimate(rows, pass.todo, maps.disparity, own);

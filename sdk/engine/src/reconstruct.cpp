@@ -23,9 +23,9 @@ HypothesisRange sample_range(const DepthOptions& options, const LightField& ligh
   std::ostringstream text;
   text << "disparity range " << range.min << " " << range.max;
   if (farthest >= light_field.width)
-    throw Error(ErrorCode::kInvalidArgument,
-                text.str() + ": wider than the pictures (" + std::to_string(light_field.width) +
-                    " px), neighbouring views share nothing then");
+    throw Error(ErrorCode::kInvalidArgument, text.str() + ": wider than the pictures (" +
+                                                 std::to_string(light_field.width) +
+                                                 " px), neighbouring views share nothing then");
   double count = options.hypotheses;
   if (count == 0) count = std::ceil((range.max - range.min) / options.hypothesis_step) + 1;
   if (count > 4096)
@@ -72,17 +72,18 @@ Prepared prepare(const LightField& light_field, const DepthOptions& wanted,
   Prepared run{light_field, wanted, {}};
   for (const int view : wanted.views)
     if (view < 0 || view >= light_field.num_views())
-      throw Error(ErrorCode::kInvalidArgument, "view " + std::to_string(view) + ": there are views 0 … " +
+      throw Error(ErrorCode::kInvalidArgument, "view " + std::to_string(view) +
+                                                   ": there are views 0 … " +
                                                    std::to_string(light_field.num_views() - 1));
   if (!run.options.disparity) run.options.disparity = light_field.declared_range;
   if (!run.options.disparity) {
     // A guess of usual size stands in where no pixel may be read: it moves the forecast a little.
-    run.options.disparity = read_pixels ? estimate_disparity_range(light_field, control).range
-                                        : DisparityRange{-2, 2};
+    run.options.disparity =
+        read_pixels ? estimate_disparity_range(light_field, control).range : DisparityRange{-2, 2};
     if (read_pixels) {
       std::ostringstream text;
-      text << "disparity range " << run.options.disparity->min << " … " << run.options.disparity->max
-           << " px per view step, estimated from the pictures";
+      text << "disparity range " << run.options.disparity->min << " … "
+           << run.options.disparity->max << " px per view step, estimated from the pictures";
       control.message(text.str());
     }
   }
@@ -160,8 +161,8 @@ ViewDepth Reconstruction::view(int view_idx) {
               Image<std::int8_t>(width, height, 1, std::int8_t(-1))};
     row.resize(width);
     for (int v = 0; v < height; ++v) {
-      state.estimates.read(v, active * width * sizeof(PackedEstimate), width * sizeof(PackedEstimate),
-                           row.data());
+      state.estimates.read(v, active * width * sizeof(PackedEstimate),
+                           width * sizeof(PackedEstimate), row.data());
       for (int u = 0; u < width; ++u) {
         if (row[u] != 0) {
           result.disparity(u, v) = hypothesis_of(row[u]);
@@ -186,8 +187,8 @@ ViewDepth Reconstruction::view(int view_idx) {
   StripMap<float> in(width, all), out(width, all);
   for (int v = 0; v < height; ++v) std::copy_n(result.disparity.row(v), width, in.row(v));
   impl_->backend->begin_level({0, width, height});
-  impl_->backend->bilateral_median(view_idx, all, radius, std::numeric_limits<float>::infinity(), in,
-                                   out);
+  impl_->backend->bilateral_median(view_idx, all, radius, std::numeric_limits<float>::infinity(),
+                                   in, out);
   for (int v = 0; v < height; ++v) std::copy_n(out.row(v), width, result.disparity.row(v));
   return result;
 }
@@ -234,9 +235,10 @@ ScoreCurve probe(const LightField& light_field, const DepthOptions& options,
   const int width = light_field.width, height = light_field.height;
   if (view_idx < 0 || view_idx >= light_field.num_views() || u < 0 || u >= width || v < 0 ||
       v >= height)
-    throw Error(ErrorCode::kInvalidArgument, "pixel " + std::to_string(u) + " " + std::to_string(v) +
-                                                 " is outside the picture of " +
-                                                 std::to_string(width) + "x" + std::to_string(height));
+    throw Error(ErrorCode::kInvalidArgument, "pixel " + std::to_string(u) + " " +
+                                                 std::to_string(v) + " is outside the picture of " +
+                                                 std::to_string(width) + "x" +
+                                                 std::to_string(height));
   const Prepared run = prepare(light_field, options, control, true);
   const auto backend = make_backend(run, choice);
   const AnySampler sampler = make_sampler(light_field);
@@ -297,8 +299,10 @@ ScoreCurve probe(const LightField& light_field, const DepthOptions& options,
         },
         sampler);
     Radiance seen{kNoEstimate, kNoEstimate, kNoEstimate};
-    if (there && there->u >= 0 && there->u <= width - 1 && there->v >= 0 && there->v <= height - 1) {
-      const std::size_t x = std::size_t(std::lround(there->u)), y = std::size_t(std::lround(there->v));
+    if (there && there->u >= 0 && there->u <= width - 1 && there->v >= 0 &&
+        there->v <= height - 1) {
+      const std::size_t x = std::size_t(std::lround(there->u)),
+                        y = std::size_t(std::lround(there->v));
       const std::uint16_t* pixel = &encoded[((y - rows.begin) * views + view) * line + 3 * x];
       seen = {pixel[0] / most, pixel[1] / most, pixel[2] / most};
     }

@@ -79,7 +79,8 @@ void RowStore::read(int row, std::size_t offset, std::size_t bytes, void* out) c
     return;
   }
   for (std::size_t done = 0; done < bytes;) {
-    const ssize_t n = pread(file_, static_cast<char*>(out) + done, bytes - done, off_t(begin + done));
+    const ssize_t n =
+        pread(file_, static_cast<char*>(out) + done, bytes - done, off_t(begin + done));
     if (n < 0 && errno == EINTR) continue;
     if (n <= 0) fail(folder_, "can't read");
     done += std::size_t(n);
@@ -102,7 +103,8 @@ void RowStore::write(int row, std::size_t offset, std::size_t bytes, const void*
 }
 
 std::byte* RowStore::open(RowRange rows, AlignedBytes& scratch) const {
-  if (file_ < 0) return const_cast<std::byte*>(memory_.data()) + std::size_t(rows.begin) * row_bytes_;
+  if (file_ < 0)
+    return const_cast<std::byte*>(memory_.data()) + std::size_t(rows.begin) * row_bytes_;
   const std::size_t bytes = std::size_t(rows.size()) * row_bytes_;
   scratch.at_least(bytes);
   read(rows.begin, 0, bytes, scratch.data());

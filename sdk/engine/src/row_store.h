@@ -28,9 +28,9 @@ class AlignedBytes {
   std::size_t size_ = 0;
 };
 
-/// Rows of equal size, in memory or in a file without a name, so that a band of rows is one sequential
-/// read and nothing is left after a crash. Zero at first. Different rows may be used by different
-/// threads. Errors of the file throw Error(kIo) naming the folder.
+/// Rows of equal size, in memory or in a file without a name, so that a band of rows is one
+/// sequential read and nothing is left after a crash. Zero at first. Different rows may be used by
+/// different threads. Errors of the file throw Error(kIo) naming the folder.
 class RowStore {
  public:
   RowStore() = default;

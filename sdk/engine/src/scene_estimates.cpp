@@ -23,7 +23,9 @@ LightField subset(const LightField& light_field, const std::vector<int>& views) 
    public:
     Subset(std::shared_ptr<const PixelSource> all, std::vector<int> views)
         : all_(std::move(all)), views_(std::move(views)) {}
-    Image<std::uint16_t> read(int view_idx) const override { return all_->read(views_.at(view_idx)); }
+    Image<std::uint16_t> read(int view_idx) const override {
+      return all_->read(views_.at(view_idx));
+    }
     int bit_depth() const override { return all_->bit_depth(); }
 
    private:
@@ -73,8 +75,8 @@ struct PixelMatch {
   float lead = 0;  ///< over the best hypothesis elsewhere
 };
 
-constexpr int kSmallWidth = 320;      // px; the search runs on pictures no wider than this
-constexpr int kMostViews = 9;         // around the centre
+constexpr int kSmallWidth = 320;  // px; the search runs on pictures no wider than this
+constexpr int kMostViews = 9;     // around the centre
 constexpr int kMostPixels = 3000;
 constexpr float kReliableScore = 0.6f, kReliableLead = 0.15f;
 
@@ -91,7 +93,10 @@ Band small_band(const LightField& views) {
     Band one = view_band(views, view, 3);
     while (one.shape.width > kSmallWidth && std::min(one.shape.width, one.shape.height) > 32) {
       Band next{{one.shape.level + 1, (one.shape.width + 1) / 2, (one.shape.height + 1) / 2},
-                {0, (one.shape.height + 1) / 2}, 1, 3, {}};
+                {0, (one.shape.height + 1) / 2},
+                1,
+                3,
+                {}};
       next.data.resize(std::size_t(next.shape.width) * next.shape.height * 3);
       reference::downsample(one, next.rows, next.data.data());
       one = std::move(next);
@@ -137,7 +142,8 @@ std::vector<PixelMatch> match_edges(const Band& band, const S& level0_sampler, b
     float elsewhere = 0;
     for (int i = 0; i < range.count; ++i)
       if (std::abs(i - best) > 6) elsewhere = std::max(elsewhere, scores[i]);
-    matches.push_back({pixel.u, pixel.v, float(range.value(best)), scores[best], scores[best] - elsewhere});
+    matches.push_back(
+        {pixel.u, pixel.v, float(range.value(best)), scores[best], scores[best] - elsewhere});
   }
   return matches;
 }
@@ -173,9 +179,10 @@ RangeEstimate estimate_disparity_range(const LightField& light_field, const RunC
   }
   constexpr std::size_t kLeast = 30;
   if (reliable.size() < kLeast)
-    throw Error(ErrorCode::kBadInput,
-                "the disparity range can't be estimated: too little in the pictures matches; give it "
-                "with --disparity MIN MAX");
+    throw Error(
+        ErrorCode::kBadInput,
+        "the disparity range can't be estimated: too little in the pictures matches; give it "
+        "with --disparity MIN MAX");
   std::sort(reliable.begin(), reliable.end());
   const auto percentile = [&](double p) {
     return double(reliable[std::size_t(p * double(reliable.size() - 1))]);
@@ -184,8 +191,7 @@ RangeEstimate estimate_disparity_range(const LightField& light_field, const RunC
   const double margin = std::max(0.12 * (high - low), search.step());
   estimate.range = {low - margin, high + margin};
   estimate.samples = long(reliable.size());
-  for (const float d : reliable)
-    estimate.negative_share += (d < 0) / double(reliable.size());
+  for (const float d : reliable) estimate.negative_share += (d < 0) / double(reliable.size());
   return estimate;
 }
 
@@ -241,11 +247,12 @@ NoiseEstimate estimate_noise(const LightField& light_field, const HypothesisRang
               for (int other = 1; other < views.num_views(); ++other) {
                 const auto there = s.locate(0, other, ray);
                 const auto sample =
-                    there ? reference::sample_at(band, other, there->u, there->v, true) : std::nullopt;
+                    there ? reference::sample_at(band, other, there->u, there->v, true)
+                          : std::nullopt;
                 if (!sample) continue;
                 sum_colour += std::min(kColourCap, reference::colour_distance(*sample, own));
-                sum_gradient += std::min(
-                    kGradientCap, std::hypot((*sample)[3] - own[3], (*sample)[4] - own[4]));
+                sum_gradient += std::min(kGradientCap,
+                                         std::hypot((*sample)[3] - own[3], (*sample)[4] - own[4]));
                 ++count;
               }
             },

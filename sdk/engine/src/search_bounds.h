@@ -12,7 +12,8 @@ namespace gigaray {
 struct Search {
   float low = kNoEstimate;   ///< Bounds of its search; NaN: it needs none, all finer pixels have
   float high = kNoEstimate;  ///< an estimate
-  float known_low = kNoEstimate;   ///< Least and greatest estimate of the finer pixels that have one;
+  float known_low =
+      kNoEstimate;  ///< Least and greatest estimate of the finer pixels that have one;
   float known_high = kNoEstimate;  ///< NaN: none has
 };
 

@@ -20,8 +20,8 @@ void TupleStore::append(const RayTuple& tuple) {
     if (std::FILE* file = descriptor >= 0 ? fdopen(descriptor, "w+b") : nullptr)
       file_ = {file, std::fclose};
   }
-  if (!file_ || std::fwrite(recent_.data(), sizeof(RayTuple), recent_.size(), file_.get()) !=
-                    recent_.size())
+  if (!file_ ||
+      std::fwrite(recent_.data(), sizeof(RayTuple), recent_.size(), file_.get()) != recent_.size())
     throw Error(ErrorCode::kIo,
                 folder_ + ": can't write intermediate data: " + std::strerror(errno));
   spilled_ += recent_.size();

@@ -12,7 +12,8 @@
 
 namespace gigaray {
 
-/// Tuples in the order they came; those that don't fit into some memory go to a file without a name.
+/// Tuples in the order they came; those that don't fit into some memory go to a file without a
+/// name.
 class TupleStore {
  public:
   /// folder: for the file; empty keeps all tuples in memory.

@@ -12,8 +12,8 @@
 
 namespace gigaray {
 
-/// Views that a robust score is made of at most, and a first look. More hardly help (half of 81 views:
-/// docs/accuracy.md) and each costs the same.
+/// Views that a robust score is made of at most, and a first look. More hardly help (half of 81
+/// views: docs/accuracy.md) and each costs the same.
 inline constexpr int kMostViews = 100, kFirstViews = 25;
 
 /// 1 for `ref` and for about `wanted` views, spread evenly over any order; for all if a few more.
@@ -31,15 +31,22 @@ inline constexpr int kHalfPlanes = 8;
 /// Fewer samples in a half-plane than this share of all views count as this many.
 inline constexpr float kLeastHalfPlane = 1.0f / 3.0f;
 
-/// Which of 8 half-planes of camera positions, 45 degrees apart and with their border, each view lies
-/// in as seen from view `ref`: bit i for the half-plane around the direction of i · 45 degrees. What
-/// counts is where the views see a point move as it comes nearer, which any sampler knows.
+/// Which of 8 half-planes of camera positions, 45 degrees apart and with their border, each view
+/// lies in as seen from view `ref`: bit i for the half-plane around the direction of i · 45
+/// degrees. What counts is where the views see a point move as it comes nearer, which any sampler
+/// knows.
 template <RaySampler S>
-std::vector<std::uint8_t> half_planes(const S& sampler, int ref, const HypothesisRange& hypotheses) {
+std::vector<std::uint8_t> half_planes(const S& sampler, int ref,
+                                      const HypothesisRange& hypotheses) {
   constexpr double kDiagonal = 0.70710678118654752;
-  constexpr std::array<std::array<double, 2>, kHalfPlanes> kDirections{
-      {{1, 0}, {kDiagonal, kDiagonal}, {0, 1}, {-kDiagonal, kDiagonal},
-       {-1, 0}, {-kDiagonal, -kDiagonal}, {0, -1}, {kDiagonal, -kDiagonal}}};
+  constexpr std::array<std::array<double, 2>, kHalfPlanes> kDirections{{{1, 0},
+                                                                        {kDiagonal, kDiagonal},
+                                                                        {0, 1},
+                                                                        {-kDiagonal, kDiagonal},
+                                                                        {-1, 0},
+                                                                        {-kDiagonal, -kDiagonal},
+                                                                        {0, -1},
+                                                                        {kDiagonal, -kDiagonal}}};
   constexpr double kOnBorder = 1e-4;
   std::vector<std::uint8_t> planes(sampler.num_views(), 0xff);
   for (int view = 0; view < sampler.num_views(); ++view) {
@@ -54,8 +61,8 @@ std::vector<std::uint8_t> half_planes(const S& sampler, int ref, const Hypothesi
   return planes;
 }
 
-/// The views of a ScoreViews as bytes: bit 0, the view counts; for half-planes bit i as there, 0 for a
-/// view that is left out.
+/// The views of a ScoreViews as bytes: bit 0, the view counts; for half-planes bit i as there, 0
+/// for a view that is left out.
 template <RaySampler S>
 std::vector<std::uint8_t> score_members(const S& sampler, int ref, ScoreViews views,
                                         const HypothesisRange& hypotheses) {

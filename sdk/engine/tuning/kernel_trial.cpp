@@ -16,7 +16,8 @@ namespace {
 double tolerance_of(const std::string& kernel) {
   if (kernel == "bilateral_median") return 0;  // picks a value
   if (kernel == "density_score" || kernel == "robust_score" || kernel == "score_support" ||
-      kernel == "slanted_support" || kernel == "scanline" || kernel == "winner" || kernel == "mean_radiance" || kernel == "slope_fit")
+      kernel == "slanted_support" || kernel == "scanline" || kernel == "winner" ||
+      kernel == "mean_radiance" || kernel == "slope_fit")
     return 1e-4;
   return 4e-6;
 }
@@ -46,8 +47,8 @@ void append(std::vector<float>& values, const StripMap<T>& map, RowRange rows) {
 
 const std::vector<std::string>& KernelTrial::kernels() {
   static const std::vector<std::string> names = {
-      "unpack_channels", "edge_confidence", "density_score", "robust_score",
-      "score_support",   "slope_fit",       "slanted_support", "scanline", "winner",        "bilateral_median",
+      "unpack_channels", "edge_confidence", "density_score", "robust_score", "score_support",
+      "slope_fit",       "slanted_support", "scanline",      "winner",       "bilateral_median",
       "mean_radiance",   "propagation",     "downsample"};
   return names;
 }

@@ -18,16 +18,17 @@ inline constexpr const char* kDepthFormat = "gigaray depth";
 /// Formats of maps beside the PFM files.
 enum class MapFormat { kExr, kNpy, kPng16 };
 
-/// The output folder of `gigaray depth` (docs/formats.md): VIEW/disparity.pfm, VIEW/confidence.pfm and
-/// VIEW/depth.png (and VIEW/depth.pfm in scene units, if the rig is known) for every view, those of the
-/// centre view also at top level, gigaray.json. Appears only when complete.
+/// The output folder of `gigaray depth` (docs/formats.md): VIEW/disparity.pfm, VIEW/confidence.pfm
+/// and VIEW/depth.png (and VIEW/depth.pfm in scene units, if the rig is known) for every view,
+/// those of the centre view also at top level, gigaray.json. Appears only when complete.
 class DepthFolder {
  public:
   /// Make it before the work: throws like AtomicFolder when the place can't be used.
   DepthFolder(const std::filesystem::path& target, std::set<MapFormat> formats)
       : folder_(target, kDepthFormat), formats_(std::move(formats)) {}
 
-  /// With what metric depth needs (metric_depth.h), every view gets depth.pfm; before the first view.
+  /// With what metric depth needs (metric_depth.h), every view gets depth.pfm; before the first
+  /// view.
   void set_rig(const RigGeometry& rig) { rig_ = rig; }
 
   /// Range of the colours of depth.png and of 16-bit PNGs; before the first view.

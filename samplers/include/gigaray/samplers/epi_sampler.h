@@ -6,8 +6,8 @@
 
 namespace gigaray {
 
-/// 3D light fields: views on a line, rays of a scene point form a straight line in one epipolar-plane
-/// image (eq. 3). Rows of different v never meet.
+/// 3D light fields: views on a line, rays of a scene point form a straight line in one
+/// epipolar-plane image (eq. 3). Rows of different v never meet.
 class EpiSampler {
  public:
   static constexpr std::string_view kKernelFile = "epi_sampler.cl";

@@ -6,8 +6,8 @@
 
 namespace gigaray {
 
-/// 4D light fields: parallel views at any real positions (s, t) of a plane; complete grids, crosses,
-/// stars and measured positions alike (eq. 9).
+/// 4D light fields: parallel views at any real positions (s, t) of a plane; complete grids,
+/// crosses, stars and measured positions alike (eq. 9).
 class GridSampler {
  public:
   static constexpr std::string_view kKernelFile = "grid_sampler.cl";

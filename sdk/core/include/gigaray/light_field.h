@@ -22,8 +22,8 @@ const char* to_string(LightFieldKind kind);  ///< "3D", "4D", "unstructured"
 
 /// Where a view's rays start. Positions are real numbers in view steps: the median spacing of
 /// neighbouring views is 1 and the centre of the rig is (0, 0). A point seen at
-/// (u, v) in view (ŝ, t̂) is seen at (u + (ŝ − s)·d, v + (t̂ − t)·d) in view (s, t) (eq. 3, 9): with a
-/// camera that moves right, near points move left. Positive d is nearer.
+/// (u, v) in view (ŝ, t̂) is seen at (u + (ŝ − s)·d, v + (t̂ − t)·d) in view (s, t) (eq. 3, 9): with
+/// a camera that moves right, near points move left. Positive d is nearer.
 struct View {
   std::string name;  ///< Unique; names the view's output folder. Usually the stem of its file.
   double s = 0;
@@ -68,7 +68,8 @@ struct LightField {
   std::shared_ptr<const PixelSource> pixels;
   std::string format;              ///< What the adapter recognised, e.g. "image sequence".
   std::vector<std::string> notes;  ///< What the adapter assumed; one line each, for the user.
-  /// Which way the camera goes as s and as t rise is an assumption that photo-consistency should check.
+  /// Which way the camera goes as s and as t rise is an assumption that photo-consistency should
+  /// check.
   bool sign_is_assumed = false;
   /// Views of the input that the adapter left out, with their places; the reason is in the notes.
   std::vector<View> left_out;
@@ -80,8 +81,8 @@ struct LightField {
 /// views, two views at one place, names that repeat, non-finite positions, sizes below 1.
 void check(const LightField& light_field);
 
-/// The picture of a view, see PixelSource::read. Throws Error(kBadInput) naming the view when its size
-/// is not that of the light field.
+/// The picture of a view, see PixelSource::read. Throws Error(kBadInput) naming the view when its
+/// size is not that of the light field.
 Image<std::uint16_t> read_view(const LightField& light_field, int view_idx);
 
 /// Index of the view nearest to the centre of the rig (ties: smaller s, then smaller t).

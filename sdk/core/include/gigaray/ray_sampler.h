@@ -33,20 +33,24 @@ struct HypothesisRange {
 /// The contract between a kind of light field and the engine. Everything that differs between 3D,
 /// 4D and unstructured input is behind it; nothing in the engine asks which one it has.
 ///
-/// A sampler is a small immutable value that knows the geometry of all views, no pixel. Its members:
+/// A sampler is a small immutable value that knows the geometry of all views, no pixel. Its
+/// members:
 ///   num_views()                     number of views
-///   locate(ref, other, ray)         where the ray of view `ref` is in view `other`; empty when it is
-///                                   behind that camera. The result may lie outside the picture: the
-///                                   engine tests that. The hypothesis is converted to the frame of
-///                                   `other` (eq. 3, 9, 10).
-///   rows_needed(rows, range, height) the rows of the other views that rays of `rows` of any view can
-///                                   reach for hypotheses in `range`, clipped to [0, height). For 3D:
-///                                   `rows` itself. Makes bands possible.
-///   at_level(level)                 the same sampler for pictures halved `level` times, where pixel
+///   locate(ref, other, ray)         where the ray of view `ref` is in view `other`; empty when it
+///   is
+///                                   behind that camera. The result may lie outside the picture:
+///                                   the engine tests that. The hypothesis is converted to the
+///                                   frame of `other` (eq. 3, 9, 10).
+///   rows_needed(rows, range, height) the rows of the other views that rays of `rows` of any view
+///   can
+///                                   reach for hypotheses in `range`, clipped to [0, height). For
+///                                   3D: `rows` itself. Makes bands possible.
+///   at_level(level)                 the same sampler for pictures halved `level` times, where
+///   pixel
 ///                                   i stands for pixel i·2^level of level 0; hypotheses keep their
 ///                                   level-0 unit.
-///   view_table()                    floats per view that the OpenCL twin needs, kViewTableWidth each
-///   kKernelFile                     name of the OpenCL twin, a file of samplers/kernels
+///   view_table()                    floats per view that the OpenCL twin needs, kViewTableWidth
+///   each kKernelFile                     name of the OpenCL twin, a file of samplers/kernels
 /// All members are const and safe to call from many threads.
 ///
 /// Laws, tested for every sampler by tests/samplers/sampler_laws.h:
@@ -59,16 +63,15 @@ struct HypothesisRange {
 /// To add one: a header in samplers/include, its twin in samplers/kernels, a line in any_sampler.h,
 /// one call of the law suite, one line each in the CMakeLists of samplers (see CONTRIBUTING.md).
 template <class S>
-concept RaySampler =
-    std::copyable<S> &&
+concept RaySampler = std::copyable<S> &&
     requires(const S sampler, int view, Ray ray, RowRange rows, HypothesisRange range, int number) {
-      { sampler.num_views() } -> std::same_as<int>;
-      { sampler.locate(view, view, ray) } -> std::same_as<std::optional<Ray>>;
-      { sampler.rows_needed(rows, range, number) } -> std::same_as<RowRange>;
-      { sampler.at_level(number) } -> std::same_as<S>;
-      { sampler.view_table() } -> std::same_as<std::vector<float>>;
-      { S::kViewTableWidth } -> std::convertible_to<int>;
-      { S::kKernelFile } -> std::convertible_to<std::string_view>;
-    };
+  { sampler.num_views() } -> std::same_as<int>;
+  { sampler.locate(view, view, ray) } -> std::same_as<std::optional<Ray>>;
+  { sampler.rows_needed(rows, range, number) } -> std::same_as<RowRange>;
+  { sampler.at_level(number) } -> std::same_as<S>;
+  { sampler.view_table() } -> std::same_as<std::vector<float>>;
+  { S::kViewTableWidth } -> std::convertible_to<int>;
+  { S::kKernelFile } -> std::convertible_to<std::string_view>;
+};
 
 }  // namespace gigaray

@@ -23,7 +23,10 @@ class StripMap {
 
   StripMap() = default;
   StripMap(int width, RowRange rows)
-      : width_(width), pitch_(pitch_for(width)), rows_(rows), data_(std::size_t(pitch_) * rows.size()) {}
+      : width_(width),
+        pitch_(pitch_for(width)),
+        rows_(rows),
+        data_(std::size_t(pitch_) * rows.size()) {}
 
   int width() const { return width_; }
   int pitch() const { return pitch_; }
@@ -95,12 +98,12 @@ enum class BandEncoding {
   kFloat    ///< [row][view][3][u] floats in the working colour space
 };
 
-/// The steps of the method on some device. Each is also a kernel, a reference function, a test and a
-/// benchmark of the same name. The caller holds maps and estimates; the backend holds the band (rows
-/// of all views, as floats) and the scores of the last strip.
+/// The steps of the method on some device. Each is also a kernel, a reference function, a test and
+/// a benchmark of the same name. The caller holds maps and estimates; the backend holds the band
+/// (rows of all views, as floats) and the scores of the last strip.
 ///
-/// Calls: begin_level, then per band load_band, then steps on rows within it. All rows are rows of the
-/// level; `ref` is a view index. Not thread-safe.
+/// Calls: begin_level, then per band load_band, then steps on rows within it. All rows are rows of
+/// the level; `ref` is a view index. Not thread-safe.
 class Backend {
  public:
   virtual ~Backend() = default;
@@ -120,12 +123,13 @@ class Backend {
   /// the robust one of colour and gradient (ScoreOptions::gradient).
   virtual void robust_score(int ref, RowRange rows, const StripMap<std::uint8_t>& todo,
                             const StripMap<HypothesisBounds>& bounds, ScoreViews views) = 0;
-  /// Mean colour along the rays of the reference view's pixels under `disparity`; NaN: the pixel stays
-  /// as it is. means: row v · channels() + c holds channel c of row v; gradients are left alone.
+  /// Mean colour along the rays of the reference view's pixels under `disparity`; NaN: the pixel
+  /// stays as it is. means: row v · channels() + c holds channel c of row v; gradients are left
+  /// alone.
   virtual void ray_mean(int ref, RowRange rows, const StripMap<float>& disparity,
                         StripMap<float>& means) = 0;
-  /// Until the next load_band or restore_reference the steps see the pixels of the reference view, in
-  /// `rows`, with these colours and their gradients; what other views show stays.
+  /// Until the next load_band or restore_reference the steps see the pixels of the reference view,
+  /// in `rows`, with these colours and their gradients; what other views show stays.
   virtual void replace_reference(RowRange rows, const StripMap<float>& means) = 0;
   virtual void restore_reference() = 0;
   virtual int channels() const = 0;  ///< of a band
@@ -137,9 +141,9 @@ class Backend {
   virtual void slanted_support(int ref, RowRange rows, const StripMap<std::uint8_t>& todo,
                                const StripMap<HypothesisBounds>& bounds,
                                const StripMap<Slope>& slopes) = 0;
-  /// Follows scan-lines over the supported scores; winner() then goes by the result. rows: begin at a
-  /// multiple of kScanlineBlock; supported scores and todo: of kScanlineReach rows more, clipped to the
-  /// picture. All hypotheses were tested.
+  /// Follows scan-lines over the supported scores; winner() then goes by the result. rows: begin at
+  /// a multiple of kScanlineBlock; supported scores and todo: of kScanlineReach rows more, clipped
+  /// to the picture. All hypotheses were tested.
   virtual void scanline(int ref, RowRange rows, const StripMap<std::uint8_t>& todo) = 0;
   /// Slope of the surface at every estimate. in: rows grown by kSlopeReach; NaN: no estimate.
   virtual void slope_fit(int ref, RowRange rows, const StripMap<float>& in,
@@ -151,10 +155,11 @@ class Backend {
   /// The same scores at the hypotheses next to estimates; NaN where there is none or nothing to do.
   virtual void score_of_estimate(RowRange rows, const StripMap<std::uint8_t>& todo,
                                  const StripMap<float>& disparity, StripMap<float>& scores) = 0;
-  /// Scores (without scan-lines) that winner() sees for one pixel, one per hypothesis; -1 where not tested.
+  /// Scores (without scan-lines) that winner() sees for one pixel, one per hypothesis; -1 where not
+  /// tested.
   virtual std::vector<float> scores_at(int u, int v) = 0;
-  /// in: rows grown by the radius. tolerance: colour distance; infinite makes it a plain median that
-  /// needs no band.
+  /// in: rows grown by the radius. tolerance: colour distance; infinite makes it a plain median
+  /// that needs no band.
   virtual void bilateral_median(int ref, RowRange rows, int radius, float tolerance,
                                 const StripMap<float>& in, StripMap<float>& out) = 0;
   virtual void mean_radiance(int ref, RowRange rows, const StripMap<float>& disparity,

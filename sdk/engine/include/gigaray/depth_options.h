@@ -25,18 +25,19 @@ inline constexpr float kLeastBandwidth = 0.02f, kLeastGradientBandwidth = 0.003f
 struct ScoreOptions {
   bool linear_rgb = true;  ///< Compare linear RGB (sRGB EOTF); false: values as encoded.
   bool cubic = false;      ///< Catmull-Rom interpolation of samples; false: linear.
-  /// Triangle kernels of colour and of the gradient (docs/method.md); false: the paper's Epanechnikov
-  /// kernel of colour.
+  /// Triangle kernels of colour and of the gradient (docs/method.md); false: the paper's
+  /// Epanechnikov kernel of colour.
   bool gradient = false;
-  float bandwidth = 0.02f;           ///< Kernel bandwidth h, colour in [0, 1]. > 0
-  float gradient_bandwidth = 0.003f; ///< The same for gradients. > 0; used with `gradient`
-  float gradient_share = 0.7f;       ///< Share of the gradient in the kernel, 0 … 1
+  float bandwidth = 0.02f;            ///< Kernel bandwidth h, colour in [0, 1]. > 0
+  float gradient_bandwidth = 0.003f;  ///< The same for gradients. > 0; used with `gradient`
+  float gradient_share = 0.7f;        ///< Share of the gradient in the kernel, 0 … 1
   float smoothing = 0;  ///< Gaussian that the pictures are smoothed by first, px; 0: none. 0 … 3
-  /// Derive smoothing, both bandwidths and SupportOptions::sigma_colour from the noise of the pictures,
-  /// and leave out ray_mean where they are clean.
+  /// Derive smoothing, both bandwidths and SupportOptions::sigma_colour from the noise of the
+  /// pictures, and leave out ray_mean where they are clean.
   bool from_noise = false;
-  /// Between the two looks of SupportOptions::slanted the reference view is replaced by the mean of what
-  /// all views see along its rays: its own noise would limit the score. Needs gradient and slanted.
+  /// Between the two looks of SupportOptions::slanted the reference view is replaced by the mean of
+  /// what all views see along its rays: its own noise would limit the score. Needs gradient and
+  /// slanted.
   bool ray_mean = false;
   int mean_shift_iterations = 10;  ///< Updates of the mean radiance (eq. 5); 0 … 100
   bool stop_early = true;          ///< Stop mean-shift where it moves no more; see density_score.cl
@@ -47,25 +48,26 @@ struct ScoreOptions {
   float floor_views = 0;
 };
 
-/// The same where the reference's pixels are means along rays (ScoreOptions::ray_mean): samples differ
-/// from them by their own noise alone, so the bandwidths are narrower, down to their least values.
+/// The same where the reference's pixels are means along rays (ScoreOptions::ray_mean): samples
+/// differ from them by their own noise alone, so the bandwidths are narrower, down to their least
+/// values.
 ScoreOptions against_means(ScoreOptions score);
 
 /// Bilateral support of the scores by neighbouring pixels, before the winner is chosen.
 struct SupportOptions {
-  int radius = 0;               ///< Half the window in px; 0: none (per-ray scores, as the paper). 0 … 8
-  float sigma_colour = 0.03f;   ///< > 0
-  float sigma_space = 4;        ///< px, > 0
+  int radius = 0;  ///< Half the window in px; 0: none (per-ray scores, as the paper). 0 … 8
+  float sigma_colour = 0.03f;  ///< > 0
+  float sigma_space = 4;       ///< px, > 0
   /// A second pass at level 0 with support along the slope that the first pass found: keeps slanted
   /// surfaces exact. Needs radius > 0.
   bool slanted = false;
   float max_slope = 9;  ///< Steepest slope, hypotheses per px. ≥ 0
-  /// Beside silhouettes at level 0, a third look with the best half of the views. Needs `slanted` and
-  /// ScoreOptions::gradient.
+  /// Beside silhouettes at level 0, a third look with the best half of the views. Needs `slanted`
+  /// and ScoreOptions::gradient.
   bool half_planes = false;
   /// A scan-line step (semi-global matching, Hirschmüller 2008) on the supported scores of level 0:
-  /// a neighbour may differ by two hypotheses at small_price, by any number at jump_price, which falls
-  /// with the colour difference. Needs radius > 0.
+  /// a neighbour may differ by two hypotheses at small_price, by any number at jump_price, which
+  /// falls with the colour difference. Needs radius > 0.
   bool scanline = false;
   float small_price = 0.05f;        ///< > 0
   float jump_price = 0.5f;          ///< > 0
@@ -74,26 +76,26 @@ struct SupportOptions {
 
 /// The winner, its confidence and the bilateral median (eq. 6–8).
 struct WinnerOptions {
-  bool refine = false;             ///< Vertex of the parabola through winner and neighbours.
-  int median_radius = 5;           ///< Half the window in px; 5 is the paper's 11×11. 0: none. 0 … 8
-  float median_tolerance = 0.1f;   ///< Colour distance ε. > 0
-  bool weigh_by_edge = true;       ///< Confidence is Ce · (Smax − mean S), eq. 7; false: without Ce.
-  float min_confidence = 0;        ///< Estimates at or below it are left to coarser levels.
+  bool refine = false;    ///< Vertex of the parabola through winner and neighbours.
+  int median_radius = 5;  ///< Half the window in px; 5 is the paper's 11×11. 0: none. 0 … 8
+  float median_tolerance = 0.1f;  ///< Colour distance ε. > 0
+  bool weigh_by_edge = true;  ///< Confidence is Ce · (Smax − mean S), eq. 7; false: without Ce.
+  float min_confidence = 0;   ///< Estimates at or below it are left to coarser levels.
   /// Report the confidence as a probability, see calibration.h; false: the bare number of eq. 7.
   bool calibrated = false;
-  /// Where the best score is above the mean by no more than this share of itself, all hypotheses score
-  /// alike: such pixels carry no information and get confidence 0. 0 … 1
+  /// Where the best score is above the mean by no more than this share of itself, all hypotheses
+  /// score alike: such pixels carry no information and get confidence 0. 0 … 1
   float min_relief = 0;
 };
 
 /// Propagation and fine-to-coarse.
 struct PropagationOptions {
   float tolerance = 0.1f;  ///< Colour distance ε between mean radiance and a ray. > 0
-  /// Holes between estimates carried over from other views that are filled between their neighbours on
-  /// level 0, and holes that are left to coarser levels: px. 0: none; 0 … 8
+  /// Holes between estimates carried over from other views that are filled between their neighbours
+  /// on level 0, and holes that are left to coarser levels: px. 0: none; 0 … 8
   int crack_width = 0;
-  bool fine_to_coarse = true;  ///< false: level 0 alone; what it can't decide stays empty.
-  int final_median_radius = 1; ///< Half the window of the final plain median; 0: none.
+  bool fine_to_coarse = true;   ///< false: level 0 alone; what it can't decide stays empty.
+  int final_median_radius = 1;  ///< Half the window of the final plain median; 0: none.
 };
 
 /// Everything that decides the result. paper_options() and auto_options() fill it.
@@ -113,10 +115,11 @@ struct DepthOptions {
   /// Indices of the views that get depth. Empty: all.
   std::vector<int> views;
 
-  /// Most memory to use, bytes; 0: three quarters of what is free. The result does not depend on it.
+  /// Most memory to use, bytes; 0: three quarters of what is free. The result does not depend on
+  /// it.
   double memory_bytes = 0;
-  /// Where large intermediate data go when memory does not hold them. Empty: the folder for temporary
-  /// files. Nothing is left there, even after a crash.
+  /// Where large intermediate data go when memory does not hold them. Empty: the folder for
+  /// temporary files. Nothing is left there, even after a crash.
   std::string work_folder;
 
   /// Throws Error(kInvalidArgument) naming the field and its value.

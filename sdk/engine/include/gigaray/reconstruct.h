@@ -17,7 +17,8 @@ namespace gigaray {
 
 /// A line segment of the light field: an accepted estimate (section 3), an element of Γ.
 struct RayTuple {
-  float hypothesis = 0;  ///< Disparity, level-0 px per view step; the slope m of eq. 1 is its inverse.
+  float hypothesis =
+      0;  ///< Disparity, level-0 px per view step; the slope m of eq. 1 is its inverse.
   float confidence = 0;
   Radiance radiance;      ///< Mean radiance r̄ in the working colour space.
   std::int32_t view = 0;  ///< Where it was computed,
@@ -28,9 +29,9 @@ struct RayTuple {
 
 /// Depth of one view.
 struct ViewDepth {
-  FloatMap disparity;   ///< (v, u), level-0 px per view step; NaN: no estimate
-  /// (v, u); NaN: no estimate. auto: probability of being right within 0.07 px, calibration.h; paper:
-  /// eq. 7, 0 and above.
+  FloatMap disparity;  ///< (v, u), level-0 px per view step; NaN: no estimate
+  /// (v, u); NaN: no estimate. auto: probability of being right within 0.07 px, calibration.h;
+  /// paper: eq. 7, 0 and above.
   FloatMap confidence;
   Image<std::int8_t> level;  ///< pyramid level that decided, −1: none
 };
@@ -40,10 +41,10 @@ void drop_unsure(float min_confidence, ViewDepth& depth);
 
 /// What a run will take.
 struct Forecast {
-  double memory_bytes = 0;  ///< Peak, with what memory_limit allows.
-  double disk_bytes = 0;    ///< Intermediate data in the work folder; 0: all in memory.
+  double memory_bytes = 0;      ///< Peak, with what memory_limit allows.
+  double disk_bytes = 0;        ///< Intermediate data in the work folder; 0: all in memory.
   double memory_all_bytes = 0;  ///< What it would take to keep everything in memory.
-  int bands = 1;            ///< Parts that level 0 is walked in.
+  int bands = 1;                ///< Parts that level 0 is walked in.
 };
 
 /// Where the kernels run. "opencl" on the device that `device` means (see select_device), or
@@ -53,8 +54,8 @@ struct BackendChoice {
   std::string device;
 };
 
-/// Result of a run; keeps the estimates of all levels (in memory or on disk) and makes the maps of a
-/// view when asked. Movable. Not thread-safe.
+/// Result of a run; keeps the estimates of all levels (in memory or on disk) and makes the maps of
+/// a view when asked. Movable. Not thread-safe.
 class Reconstruction {
  public:
   struct Impl;
@@ -76,8 +77,8 @@ class Reconstruction {
   void for_each_tuple(const std::function<void(const RayTuple&)>& visit) const;
   std::size_t num_tuples() const;
 
-  const std::string& device() const;                      ///< Backend and device, for reports.
-  const std::map<std::string, double>& seconds() const;   ///< Per stage.
+  const std::string& device() const;                     ///< Backend and device, for reports.
+  const std::map<std::string, double>& seconds() const;  ///< Per stage.
   const Forecast& forecast() const;
 
  private:
@@ -85,9 +86,9 @@ class Reconstruction {
 };
 
 /// Depth for every view of a light field: the whole method of METHOD's steps 1–7 on all levels.
-/// The result does not depend on memory, bands or threads; twice the same input gives the same bits.
-/// Throws Error: kInvalidArgument (options), kBadInput (light field), kDevice, kIo, kOutOfMemory,
-/// kCancelled.
+/// The result does not depend on memory, bands or threads; twice the same input gives the same
+/// bits. Throws Error: kInvalidArgument (options), kBadInput (light field), kDevice, kIo,
+/// kOutOfMemory, kCancelled.
 Reconstruction reconstruct(const LightField& light_field, const DepthOptions& options,
                            const BackendChoice& backend, const RunControl& control);
 
@@ -100,7 +101,8 @@ struct ScoreCurve {
   HypothesisRange hypotheses;
   float disparity = 0;   ///< Winner; NaN if none
   float confidence = 0;  ///< Best score minus mean score
-  /// Per view the pixel nearest to the winner's ray: encoded RGB in [0, 1]; NaN outside the picture.
+  /// Per view the pixel nearest to the winner's ray: encoded RGB in [0, 1]; NaN outside the
+  /// picture.
   std::vector<Radiance> samples;
 };
 

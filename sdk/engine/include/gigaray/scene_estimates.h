@@ -36,8 +36,8 @@ RangeEstimate estimate_disparity_range(const LightField& light_field, const RunC
 struct NoiseEstimate {
   double colour = 0;    ///< 25th percentile of the least mean colour distance, encoded RGB
   double gradient = 0;  ///< The same of the gradients
-  /// By how much the mean colour distance over all hypotheses exceeds the least one, relative to it:
-  /// median over the pixels.
+  /// By how much the mean colour distance over all hypotheses exceeds the least one, relative to
+  /// it: median over the pixels.
   double lead = 0;
 };
 
@@ -45,10 +45,10 @@ struct NoiseEstimate {
 NoiseEstimate estimate_noise(const LightField& light_field, const HypothesisRange& hypotheses,
                              const RunControl& control);
 
-/// NoiseEstimate::lead of pictures (docs/accuracy.md): above the first, a single ray tells enough and
-/// smoothing would only cost; above the second the pixel's own value is better than a mean along its
-/// ray. Clean pictures have 2.6 and more, JPEG of quality 75 has 0.9 to 1.7, noise of 2 % of the range
-/// 0.3 to 0.7 where the texture is weak.
+/// NoiseEstimate::lead of pictures (docs/accuracy.md): above the first, a single ray tells enough
+/// and smoothing would only cost; above the second the pixel's own value is better than a mean
+/// along its ray. Clean pictures have 2.6 and more, JPEG of quality 75 has 0.9 to 1.7, noise of 2 %
+/// of the range 0.3 to 0.7 where the texture is weak.
 inline constexpr double kLeadWithoutSmoothing = 1.0, kLeadOfOwnPixel = 1.7;
 
 /// Sets the bandwidths and sigma_colour of options from the noise (ACCURACY: the measured rule).
