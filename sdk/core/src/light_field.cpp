@@ -2,8 +2,10 @@
 // Copyright (c) 2026 The Gigaray authors
 #include "gigaray/light_field.h"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <set>
 #include <tuple>
@@ -51,8 +53,18 @@ void check(const LightField& light_field) {
     if (!std::isfinite(view.s) || !std::isfinite(view.t))
       bad("view " + view.name + ": its position is not a finite number");
     if (!names.insert(view.name).second) bad("two views are named " + view.name);
-    if (!places.insert({view.s, view.t}).second)
+    if (light_field.kind != LightFieldKind::kUnstructured &&
+        !places.insert({view.s, view.t}).second)
       bad("view " + view.name + " stands at the same position as another view");
+  }
+  if (light_field.kind != LightFieldKind::kUnstructured) return;
+  if (light_field.cameras.size() != light_field.views.size())
+    bad("an unstructured light field needs a camera for every view");
+  for (std::size_t i = 0; i < light_field.views.size(); ++i) {
+    const Camera& camera = light_field.cameras[i];
+    check(camera, "view " + light_field.views[i].name);
+    if (camera.width > light_field.width || camera.height > light_field.height)
+      bad("view " + light_field.views[i].name + ": its camera is larger than the light field");
   }
 }
 
@@ -61,8 +73,9 @@ Image<std::uint16_t> read_view(const LightField& light_field, int view_idx) {
   const auto size = [](int width, int height) {
     return std::to_string(width) + "x" + std::to_string(height);
   };
+  const int channels = light_field.pixels->has_mask() ? 4 : 3;
   if (picture.width() != light_field.width || picture.height() != light_field.height ||
-      picture.channels() != 3)
+      picture.channels() != channels)
     bad("view " + light_field.views[view_idx].name + " is " +
         size(picture.width(), picture.height()) + ", the others are " +
         size(light_field.width, light_field.height));
@@ -103,6 +116,43 @@ double normalise_positions(std::vector<View>& views) {
   for (View& view : views) {
     view.s = (view.s - s_mid) / step;
     view.t = (view.t - t_mid) / step;
+  }
+  return step;
+}
+
+double place_by_cameras(LightField& light_field) {
+  const auto count = Eigen::Index(light_field.cameras.size());
+  GIGARAY_CHECK(count >= 2 && light_field.cameras.size() == light_field.views.size());
+  Eigen::Matrix3Xd positions(3, count);
+  for (Eigen::Index i = 0; i < count; ++i)
+    positions.col(i) = light_field.cameras[std::size_t(i)].position();
+
+  std::vector<double> nearest;
+  for (Eigen::Index i = 0; i < count; ++i) {
+    double least = std::numeric_limits<double>::infinity();
+    for (Eigen::Index j = 0; j < count; ++j)
+      if (i != j) least = std::min(least, (positions.col(i) - positions.col(j)).norm());
+    nearest.push_back(least);
+  }
+  std::nth_element(nearest.begin(), nearest.begin() + count / 2, nearest.end());
+  const double step = nearest[std::size_t(count / 2)];
+  if (!(step > 0)) bad("the cameras all stand at one place: there is no parallax to see depth by");
+
+  const Eigen::Vector3d middle = positions.rowwise().mean();
+  positions.colwise() -= middle;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> spread(positions * positions.transpose());
+  // Signs that don't depend on the solver: the larger component positive.
+  const auto axis = [&](int column) {
+    Eigen::Vector3d direction = spread.eigenvectors().col(column);
+    Eigen::Index largest = 0;
+    direction.cwiseAbs().maxCoeff(&largest);
+    return Eigen::Vector3d(direction * (direction[largest] < 0 ? -1 : 1));
+  };
+  const Eigen::Vector3d first = axis(2), second = axis(1);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    View& view = light_field.views[std::size_t(i)];
+    view.s = first.dot(positions.col(i)) / step;
+    view.t = second.dot(positions.col(i)) / step;
   }
   return step;
 }

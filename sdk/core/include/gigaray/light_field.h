@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "gigaray/camera.h"
 #include "gigaray/image.h"
 
 namespace gigaray {
@@ -23,7 +24,8 @@ const char* to_string(LightFieldKind kind);  ///< "3D", "4D", "unstructured"
 /// Where a view's rays start. Positions are real numbers in view steps: the median spacing of
 /// neighbouring views is 1 and the centre of the rig is (0, 0). A point seen at
 /// (u, v) in view (ŝ, t̂) is seen at (u + (ŝ − s)·d, v + (t̂ − t)·d) in view (s, t) (eq. 3, 9): with
-/// a camera that moves right, near points move left. Positive d is nearer.
+/// a camera that moves right, near points move left. Positive d is nearer. Of unstructured views
+/// they only tell who stands near whom: place_by_cameras.
 struct View {
   std::string name;  ///< Unique; names the view's output folder. Usually the stem of its file.
   double s = 0;
@@ -52,8 +54,12 @@ class PixelSource {
  public:
   virtual ~PixelSource() = default;
   /// The view as RGB, (v, u, c), gamma-encoded sRGB as stored in the file, 0 … 2^bit_depth() − 1.
-  /// Grey is repeated over the channels, alpha is dropped. Throws Error(kBadInput) naming the file.
+  /// Grey is repeated over the channels, alpha is dropped. With has_mask() a fourth channel: 0
+  /// where the pixel shows nothing of the scene. Throws Error(kBadInput) naming the file.
   virtual Image<std::uint16_t> read(int view_idx) const = 0;
+  /// Are there pixels without meaning: outside of the lens's field after undistortion, outside of a
+  /// picture smaller than the light field, masked by the user?
+  virtual bool has_mask() const { return false; }
   virtual int bit_depth() const = 0;  ///< 8 or 16, the same for all views.
 };
 
@@ -63,7 +69,8 @@ struct LightField {
   int width = 0;   ///< u, all views alike
   int height = 0;  ///< v
   std::vector<View> views;
-  RigGeometry rig;
+  std::vector<Camera> cameras;                   ///< kUnstructured: one per view; else empty
+  RigGeometry rig;                               ///< kUnstructured: the unit alone
   std::optional<DisparityRange> declared_range;  ///< From a parameter file, if there is one.
   std::shared_ptr<const PixelSource> pixels;
   std::string format;              ///< What the adapter recognised, e.g. "image sequence".
@@ -78,7 +85,8 @@ struct LightField {
 };
 
 /// Throws Error(kBadInput) when something is missing or contradictory: no pixels, fewer than two
-/// views, two views at one place, names that repeat, non-finite positions, sizes below 1.
+/// views, two views at one place, names that repeat, non-finite positions, sizes below 1, cameras
+/// that are missing or wrong.
 void check(const LightField& light_field);
 
 /// The picture of a view, see PixelSource::read. Throws Error(kBadInput) naming the view when its
@@ -96,6 +104,12 @@ std::vector<int> views_from_centre(const LightField& light_field);
 /// unit, the factor from view steps to the unit that the positions came in. A grid whose step is
 /// known should not be normalised with it: state positions in steps instead.
 double normalise_positions(std::vector<View>& views);
+
+/// Sets s and t of unstructured views from their cameras: the positions along the two main
+/// directions of their spread, in steps of the median distance to the nearest neighbour, 0 in the
+/// middle. Returns that distance in scene units. Throws Error(kBadInput) when all stand at one
+/// place.
+double place_by_cameras(LightField& light_field);
 
 /// 3D when all t are equal, else 4D.
 LightFieldKind kind_from_positions(const std::vector<View>& views);

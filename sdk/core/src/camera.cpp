@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Gigaray authors
+#include "gigaray/camera.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+#include "gigaray/error.h"
+
+namespace gigaray {
+
+Eigen::Vector3d Camera::project(const Eigen::Vector3d& point) const {
+  const Eigen::Vector3d x = rotation * point + translation;
+  return {focal_u * x.x() / x.z() + centre_u, focal_v * x.y() / x.z() + centre_v, x.z()};
+}
+
+Eigen::Vector3d Camera::back_project(double u, double v, double z) const {
+  const Eigen::Vector3d ray((u - centre_u) / focal_u, (v - centre_v) / focal_v, 1);
+  return rotation.transpose() * (z * ray - translation);
+}
+
+bool Camera::sees(const Eigen::Vector3d& point) const {
+  const Eigen::Vector3d at = project(point);
+  return at.z() > 0 && at.x() >= 0 && at.x() <= width - 1 && at.y() >= 0 && at.y() <= height - 1;
+}
+
+void check(const Camera& camera, const std::string& name) {
+  const auto bad = [&](const std::string& what) {
+    throw Error(ErrorCode::kBadInput, name + ": " + what);
+  };
+  const double numbers[] = {camera.focal_u, camera.focal_v, camera.centre_u, camera.centre_v};
+  if (!std::all_of(std::begin(numbers), std::end(numbers),
+                   [](double x) { return std::isfinite(x); }))
+    bad("a focal length or principal point is not a finite number");
+  if (!camera.rotation.allFinite() || !camera.translation.allFinite())
+    bad("its pose holds a number that is not finite");
+  if (camera.width < 1 || camera.height < 1) bad("its picture is empty");
+  if (!(camera.focal_u > 0 && camera.focal_v > 0)) bad("its focal length is not positive");
+  constexpr double kOrthonormal = 1e-4;
+  const Eigen::Matrix3d square = camera.rotation * camera.rotation.transpose();
+  if ((square - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() > kOrthonormal ||
+      camera.rotation.determinant() < 0)
+    bad("its rotation is none (not orthonormal, or mirrored)");
+  if (const auto& range = camera.inverse_depth;
+      range && !(range->min < range->max && std::isfinite(range->min) && std::isfinite(range->max)))
+    bad("its range of depths is empty");
+}
+
+std::optional<InverseDepthRange> range_of_depths(std::vector<double> depths) {
+  constexpr std::size_t kLeastPoints = 8;
+  constexpr double kPercentile = 0.01, kMargin = 0.1;
+  if (depths.size() < kLeastPoints) return std::nullopt;
+  for (double& z : depths) z = 1 / z;
+  std::sort(depths.begin(), depths.end());
+  const auto percentile = [&](double p) {
+    return depths[std::size_t(std::lround(p * double(depths.size() - 1)))];
+  };
+  const double low = percentile(kPercentile), high = percentile(1 - kPercentile);
+  // Points of one depth alone still leave something to search.
+  const double margin = std::max(kMargin * (high - low), 0.02 * high);
+  return InverseDepthRange{std::max(0.0, low - margin), high + margin};
+}
+
+}  // namespace gigaray
