@@ -137,6 +137,7 @@ RowRange UnstructuredSampler::rows_needed(int ref, RowRange rows, HypothesisRang
   RowRange needed = grown(rows, 0, height);
   const double right = cameras_[ref].width - 1;
   for (const int other : partners_[ref]) {
+    if (other == ref) continue;
     double top = needed.begin, bottom = needed.end - 1;
     for (const double u : {0.0, right})
       for (const int v : {rows.begin, rows.end - 1})
