@@ -15,6 +15,7 @@
 #include <unsupported/Eigen/AutoDiff>
 
 #include "gigaray/error.h"
+#include "text.h"
 
 namespace gigaray {
 namespace {
@@ -117,7 +118,8 @@ void check(const Lens& lens, const std::string& where) {
   };
   const Model* model = find_model(lens.model);
   if (!model)
-    bad("the camera model '" + lens.model + "' is unknown; those of COLMAP 3.8 to 3.12 are known");
+    bad("the camera model " + in_quotes(lens.model) +
+        " is unknown; those of COLMAP 3.8 to 3.12 are known");
   if (int(lens.params.size()) != model->num_params())
     bad("the camera model " + lens.model + " has " + std::to_string(model->num_params()) +
         " parameters, here are " + std::to_string(lens.params.size()));
