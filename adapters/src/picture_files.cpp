@@ -18,14 +18,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct PictureSpec {
-  int width = 0;  // as seen, after the orientation is applied
-  int height = 0;
-  bool is_grey = false;
-  bool has_alpha = false;
-  int bit_depth = 8;
-};
-
 [[noreturn]] void bad(const fs::path& path, const std::string& what) {
   throw Error(ErrorCode::kBadInput, path.string() + ": " + what);
 }
@@ -36,49 +28,19 @@ vips::VImage open_picture(const fs::path& path) {
                                                        ->set("fail_on", VIPS_FAIL_ON_WARNING));
 }
 
-PictureSpec spec_of(const vips::VImage& image, const fs::path& path) {
+PictureSpec spec_of(const vips::VImage& image, Orientation orientation, const fs::path& path) {
   if (image.format() != VIPS_FORMAT_UCHAR && image.format() != VIPS_FORMAT_USHORT)
     bad(path, "has pixels of another type than 8 or 16 bit");
   PictureSpec spec;
   spec.width = image.width();
   spec.height = image.height();
-  if (vips_image_get_orientation_swap(image.get_image())) std::swap(spec.width, spec.height);
+  spec.is_turned = vips_image_get_orientation(image.get_image()) != 1;
+  if (orientation == Orientation::kApplied && vips_image_get_orientation_swap(image.get_image()))
+    std::swap(spec.width, spec.height);
   spec.has_alpha = image.has_alpha();
   spec.is_grey = image.bands() < 3;
   spec.bit_depth = image.format() == VIPS_FORMAT_UCHAR ? 8 : 16;
   return spec;
-}
-
-PictureSpec read_spec(const fs::path& path) {
-  use_vips();
-  try {
-    return spec_of(open_picture(path), path);
-  } catch (const vips::VError& error) {
-    bad(path, "is damaged or no picture (" + vips_reason(error) + ")");
-  }
-}
-
-Image<std::uint16_t> decode(const fs::path& path, PictureSpec& spec) {
-  use_vips();
-  try {
-    vips::VImage image = open_picture(path);
-    spec = spec_of(image, path);
-    if (image.interpretation() == VIPS_INTERPRETATION_CMYK)
-      image = image.colourspace(VIPS_INTERPRETATION_sRGB);
-    image = image.extract_band(0, vips::VImage::option()->set("n", spec.is_grey ? 1 : 3));
-    // Turning reads rows in another order than the file has them: decode first.
-    image = image.cast(VIPS_FORMAT_USHORT).copy_memory().autorot();
-    if (spec.is_grey) image = vips::VImage::bandjoin({image, image, image});
-    GIGARAY_CHECK(image.bands() == 3);
-
-    Image<std::uint16_t> picture(image.width(), image.height(), 3);
-    image.write(
-        vips::VImage::new_from_memory(picture.data(), picture.size() * sizeof(std::uint16_t),
-                                      picture.width(), picture.height(), 3, VIPS_FORMAT_USHORT));
-    return picture;
-  } catch (const vips::VError& error) {
-    bad(path, "is damaged or cut short (" + vips_reason(error) + ")");
-  }
 }
 
 class PictureFiles : public PixelSource {
@@ -89,11 +51,10 @@ class PictureFiles : public PixelSource {
   Image<std::uint16_t> read(int view_idx) const override {
     const fs::path& path = files_.at(view_idx);
     PictureSpec spec;
-    Image<std::uint16_t> picture = decode(path, spec);
+    Image<std::uint16_t> picture = decode_picture(path, Orientation::kApplied, spec);
     if (picture.width() != width_ || picture.height() != height_)
       bad(path, "has another size than when it was opened");
-    if (spec.bit_depth < bit_depth_)
-      for (std::uint16_t& value : picture) value *= 257;
+    if (spec.bit_depth < bit_depth_) widen_to_16_bit(picture);
     return picture;
   }
   int bit_depth() const override { return bit_depth_; }
@@ -102,10 +63,6 @@ class PictureFiles : public PixelSource {
   std::vector<fs::path> files_;
   int width_, height_, bit_depth_;
 };
-
-std::string size_text(int width, int height) {
-  return std::to_string(width) + "×" + std::to_string(height);
-}
 
 }  // namespace
 
@@ -140,36 +97,81 @@ std::vector<fs::path> pictures_of(const fs::path& folder) {
   return files;
 }
 
+std::string size_text(int width, int height) {
+  return std::to_string(width) + "×" + std::to_string(height);
+}
+
+PictureSpec read_picture_spec(const fs::path& path, Orientation orientation) {
+  use_vips();
+  try {
+    return spec_of(open_picture(path), orientation, path);
+  } catch (const vips::VError& error) {
+    bad(path, "is damaged or no picture (" + vips_reason(error) + ")");
+  }
+}
+
+Image<std::uint16_t> decode_picture(const fs::path& path, Orientation orientation,
+                                    PictureSpec& spec) {
+  use_vips();
+  try {
+    vips::VImage image = open_picture(path);
+    spec = spec_of(image, orientation, path);
+    if (image.interpretation() == VIPS_INTERPRETATION_CMYK)
+      image = image.colourspace(VIPS_INTERPRETATION_sRGB);
+    image = image.extract_band(0, vips::VImage::option()->set("n", spec.is_grey ? 1 : 3));
+    // Turning reads rows in another order than the file has them: decode first.
+    image = image.cast(VIPS_FORMAT_USHORT).copy_memory();
+    if (orientation == Orientation::kApplied) image = image.autorot();
+    if (spec.is_grey) image = vips::VImage::bandjoin({image, image, image});
+    GIGARAY_CHECK(image.bands() == 3);
+
+    Image<std::uint16_t> picture(image.width(), image.height(), 3);
+    image.write(
+        vips::VImage::new_from_memory(picture.data(), picture.size() * sizeof(std::uint16_t),
+                                      picture.width(), picture.height(), 3, VIPS_FORMAT_USHORT));
+    return picture;
+  } catch (const vips::VError& error) {
+    bad(path, "is damaged or cut short (" + vips_reason(error) + ")");
+  }
+}
+
+void widen_to_16_bit(Image<std::uint16_t>& picture) {
+  for (std::uint16_t& value : picture) value *= 257;
+}
+
+int common_bit_depth(const std::vector<PictureSpec>& specs, std::vector<std::string>& notes) {
+  const auto any = [&](auto property) { return std::any_of(specs.begin(), specs.end(), property); };
+  const bool deep = any([](const PictureSpec& spec) { return spec.bit_depth == 16; });
+  if (any([](const PictureSpec& spec) { return spec.has_alpha; }))
+    notes.push_back("the alpha channel of the pictures is ignored");
+  if (any([](const PictureSpec& spec) { return spec.is_grey; }))
+    notes.push_back("grey pictures are read as colour with equal channels");
+  if (deep && any([](const PictureSpec& spec) { return spec.bit_depth == 8; }))
+    notes.push_back("pictures of 8 and of 16 bit: the 8-bit ones are scaled up");
+  return deep ? 16 : 8;
+}
+
 void attach_pictures(LightField& light_field, std::vector<fs::path> files) {
   GIGARAY_CHECK(files.size() == light_field.views.size() && !files.empty());
-  PictureSpec first;
-  int bit_depth = 8;
-  bool alpha = false, grey = false, mixed_depth = false;
+  std::vector<PictureSpec> specs;
   for (const fs::path& path : files) {
-    const PictureSpec spec = read_spec(path);
-    if (&path == &files.front()) first = spec;
+    specs.push_back(read_picture_spec(path, Orientation::kApplied));
+    const PictureSpec &spec = specs.back(), &first = specs.front();
     if (spec.width != first.width || spec.height != first.height)
       bad(path, "has " + size_text(spec.width, spec.height) + " pixels, " +
                     files.front().filename().string() + " has " +
                     size_text(first.width, first.height) + "; all views need one size");
-    bit_depth = std::max(bit_depth, spec.bit_depth);
-    mixed_depth |= spec.bit_depth != first.bit_depth;
-    alpha |= spec.has_alpha;
-    grey |= spec.is_grey;
   }
-  if (alpha) light_field.notes.push_back("the alpha channel of the pictures is ignored");
-  if (grey) light_field.notes.push_back("grey pictures are read as colour with equal channels");
-  if (mixed_depth)
-    light_field.notes.push_back("pictures of 8 and of 16 bit: the 8-bit ones are scaled up");
-  light_field.width = first.width;
-  light_field.height = first.height;
-  light_field.pixels =
-      std::make_shared<PictureFiles>(std::move(files), first.width, first.height, bit_depth);
+  const int bit_depth = common_bit_depth(specs, light_field.notes);
+  light_field.width = specs.front().width;
+  light_field.height = specs.front().height;
+  light_field.pixels = std::make_shared<PictureFiles>(std::move(files), light_field.width,
+                                                      light_field.height, bit_depth);
 }
 
 Image<std::uint16_t> read_picture(const fs::path& path, int* bit_depth) {
   PictureSpec spec;
-  Image<std::uint16_t> picture = decode(path, spec);
+  Image<std::uint16_t> picture = decode_picture(path, Orientation::kApplied, spec);
   if (bit_depth) *bit_depth = spec.bit_depth;
   return picture;
 }

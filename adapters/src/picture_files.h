@@ -2,14 +2,32 @@
 // Copyright (c) 2026 The Gigaray authors
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "gigaray/image.h"
 #include "gigaray/light_field.h"
 
 namespace gigaray {
+
+/// Is a picture turned as the camera noted in its file (EXIF)?
+enum class Orientation {
+  kApplied,  ///< upright, as programs show it
+  kIgnored,  ///< as the sensor saw it; COLMAP and other programs that find cameras look at this one
+};
+
+/// What the header of a picture says.
+struct PictureSpec {
+  int width = 0;
+  int height = 0;
+  int bit_depth = 8;  ///< 8 or 16
+  bool is_grey = false;
+  bool has_alpha = false;
+  bool is_turned = false;  ///< its orientation is not upright
+};
 
 /// Has the name an extension of a picture format that light fields come in?
 bool is_picture_name(const std::filesystem::path& path);
@@ -20,6 +38,24 @@ std::vector<std::filesystem::path> files_of(const std::filesystem::path& folder)
 /// Regular, visible files of a folder whose name looks like a picture. Nothing when it is no
 /// folder.
 std::vector<std::filesystem::path> pictures_of(const std::filesystem::path& folder);
+
+/// Reads the header alone. Throws Error(kBadInput) naming the file: no picture, damaged, another
+/// type than 8 or 16 bit.
+PictureSpec read_picture_spec(const std::filesystem::path& path, Orientation orientation);
+
+/// Decodes a picture as RGB, grey repeated, alpha dropped. spec: becomes what its header says.
+/// Throws Error(kBadInput) naming the file when it is damaged or cut short.
+Image<std::uint16_t> decode_picture(const std::filesystem::path& path, Orientation orientation,
+                                    PictureSpec& spec);
+
+/// Brings 8-bit values to 16 bit: 255 becomes 65535.
+void widen_to_16_bit(Image<std::uint16_t>& picture);
+
+/// Most bits of any picture. Notes what is dropped or changed when all are read alike.
+int common_bit_depth(const std::vector<PictureSpec>& specs, std::vector<std::string>& notes);
+
+/// "640×480"
+std::string size_text(int width, int height);
 
 /// Sets width, height and pixels of `light_field` from its pictures, one per view in their order,
 /// and notes what is dropped. Reads headers only. Throws Error(kBadInput) naming the file: no

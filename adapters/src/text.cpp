@@ -47,6 +47,14 @@ std::vector<std::string> split_words(std::string_view line) {
   return words;
 }
 
+std::string in_quotes(std::string_view word) {
+  constexpr std::size_t kMost = 60;
+  std::string text = "'" + std::string(word.substr(0, kMost)) + (word.size() > kMost ? "…'" : "'");
+  for (std::size_t i = 0; i < std::min(word.size(), kMost) + 1; ++i)
+    if (static_cast<unsigned char>(text[i]) < ' ' || text[i] == '\x7f') text[i] = '?';
+  return text;
+}
+
 std::string read_bytes(const std::filesystem::path& path) {
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored))

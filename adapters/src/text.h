@@ -23,6 +23,9 @@ std::string lower(std::string text);
 /// Words between white space, commas and semicolons.
 std::vector<std::string> split_words(std::string_view line);
 
+/// A word of a file for a message: in quotes, shortened, control characters replaced.
+std::string in_quotes(std::string_view word);
+
 /// Everything in a file. Throws Error(kIo) naming it.
 std::string read_bytes(const std::filesystem::path& path);
 

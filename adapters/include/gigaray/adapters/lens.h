@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -15,10 +16,15 @@ struct Lens {
   std::string model;  ///< "PINHOLE", "OPENCV", "OPENCV_FISHEYE", …: see lens_models()
   int width = 0, height = 0;
   std::vector<double> params;
+  bool operator==(const Lens&) const = default;
 };
 
-/// Names of the models that are known: all of COLMAP 3.8 – 3.12.
+/// Names of the models that are known, all of COLMAP 3.8 – 3.12, in the order of COLMAP's numbers
+/// for them: lens_models()[4] is "OPENCV".
 const std::vector<std::string>& lens_models();
+
+/// How many parameters a model has; 0 for an unknown one.
+int num_lens_params(const std::string& model);
 
 /// Throws Error(kBadInput), beginning with `where`, for an unknown model, a wrong number of
 /// parameters, parameters that are not finite, sizes or focal lengths that are not positive or
@@ -32,7 +38,42 @@ std::optional<Eigen::Vector2d> distort(const Lens& lens, const Eigen::Vector2d& 
 /// The inverse of distort; empty where the iteration finds none.
 std::optional<Eigen::Vector2d> undistort(const Lens& lens, const Eigen::Vector2d& pixel);
 
-/// Are all distortion parameters 0?
+/// Does the lens map as a pinhole does: all distortion parameters 0, and no fisheye model?
 bool is_pinhole(const Lens& lens);
+
+/// A lens made ready for many points; distort() and undistort() above are for one.
+class LensMap {
+ public:
+  explicit LensMap(const Lens& lens);  ///< one that passes check()
+  /// For a picture of width x height px instead of the lens's own size.
+  LensMap(const Lens& lens, int width, int height);
+
+  std::optional<Eigen::Vector2d> distort(const Eigen::Vector2d& direction) const;
+  std::optional<Eigen::Vector2d> undistort(const Eigen::Vector2d& pixel) const;
+
+  const Eigen::Vector2d& focal() const { return focal_; }    ///< px
+  const Eigen::Vector2d& centre() const { return centre_; }  ///< px, pixel centres at integers
+
+ private:
+  enum class Projection { kPerspective, kFisheye, kFieldOfView };
+
+  void set_distortion(const Lens& lens);
+  void find_limit();
+  double radial(double r) const;
+  template <class T>
+  void bend(const T& x, const T& y, T& u, T& v) const;
+  std::optional<Eigen::Vector2d> unbend(const Eigen::Vector2d& seen) const;
+
+  Projection projection_ = Projection::kPerspective;
+  Eigen::Vector2d focal_, centre_;
+  // Radial: (1 + Σ above_[i] r^(2i+2)) / (1 + Σ below_[i] r^(2i+2)).
+  std::array<double, 6> above_{};
+  std::array<double, 3> below_{};
+  double p1_ = 0, p2_ = 0;           // tangential, as OpenCV names them
+  std::array<double, 4> prism_{};    // of r² and r⁴ in u, then in v
+  bool radial_comes_first_ = false;  // tangential and prism parts of what the radial one gives
+  double field_of_view_ = 0;         // ω of the model FOV, radians
+  double limit_ = 0;                 // radius up to which the radial part rises
+};
 
 }  // namespace gigaray

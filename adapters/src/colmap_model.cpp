@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Gigaray authors
+#include "gigaray/adapters/colmap_model.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <system_error>
+
+#include "colmap_model_files.h"
+#include "gigaray/adapters/atomic_output.h"
+#include "gigaray/error.h"
+#include "text.h"
+
+namespace gigaray {
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void bad(const std::string& where, const std::string& what) {
+  throw Error(ErrorCode::kBadInput, where + ": " + what);
+}
+
+bool is_file(const fs::path& path) {
+  std::error_code ignored;
+  return fs::is_regular_file(path, ignored);
+}
+
+bool has_parts(const fs::path& folder, const std::string& extension) {
+  return is_file(folder / ("cameras" + extension)) && is_file(folder / ("images" + extension));
+}
+
+}  // namespace
+
+void accept(std::uint32_t camera_id, Lens lens, const std::string& where, ColmapModel& model) {
+  const std::string camera = where + ": camera " + std::to_string(camera_id);
+  check(lens, camera);
+  if (!model.cameras.emplace(camera_id, std::move(lens)).second) bad(camera, "is there twice");
+}
+
+void accept(ColmapModel::Image image, const std::string& where, ColmapModel& model) {
+  const auto bad_image = [&](const std::string& what) {
+    bad(where, "image " + in_quotes(image.name) + " " + what);
+  };
+  if (image.name.empty()) bad(where, "image " + std::to_string(image.id) + " has no name");
+  // No picture has one, and text files could not hold it.
+  if (std::any_of(image.name.begin(), image.name.end(), [](char c) { return c > 0 && c < ' '; }))
+    bad_image("has control characters in its name");
+  const double length = image.rotation.norm();
+  constexpr double kTolerance = 0.01;
+  if (!image.translation.allFinite() || !std::isfinite(length))
+    bad_image("has a pose with a number that is not finite");
+  if (std::abs(length - 1) > kTolerance)
+    bad_image("has a quaternion of length " + std::to_string(length) + ", a rotation has 1");
+  image.rotation.normalize();
+  for (const ColmapModel::Feature& feature : image.features)
+    if (!std::isfinite(feature.x) || !std::isfinite(feature.y))
+      bad_image("has a point that is not at a finite position");
+  model.images.push_back(std::move(image));
+}
+
+void accept(ColmapModel::Point point, const std::string& where, ColmapModel& model) {
+  if (!point.position.allFinite() || !std::isfinite(point.error))
+    bad(where, "point " + std::to_string(point.id) + " has a number that is not finite");
+  model.points.push_back(std::move(point));
+}
+
+void check(const ColmapModel& model, const std::string& where) {
+  if (model.images.empty())
+    bad(where, "no image is registered: COLMAP found no cameras; take pictures that overlap more");
+  std::set<std::uint32_t> ids;
+  std::set<std::string_view> names;
+  for (const ColmapModel::Image& image : model.images) {
+    if (!ids.insert(image.id).second)
+      bad(where, "two images have the number " + std::to_string(image.id));
+    if (!names.insert(image.name).second)
+      bad(where, "two images are named " + in_quotes(image.name));
+    if (!model.cameras.count(image.camera_id))
+      bad(where, "image " + in_quotes(image.name) + " has camera " +
+                     std::to_string(image.camera_id) + ", which is not in the model");
+  }
+  std::set<std::uint64_t> points;
+  for (const ColmapModel::Point& point : model.points)
+    if (!points.insert(point.id).second)
+      bad(where, "two points have the number " + std::to_string(point.id));
+}
+
+bool is_colmap_model(const fs::path& folder) {
+  return has_parts(folder, ".bin") || has_parts(folder, ".txt");
+}
+
+ColmapModel read_colmap_model(const fs::path& folder) {
+  if (!is_colmap_model(folder))
+    bad(folder.string(),
+        "holds no COLMAP model: cameras.bin and images.bin, or the same as .txt, are needed");
+  const bool binary = has_parts(folder, ".bin");
+  const ColmapParser& parser = binary ? kBinaryColmapParser : kTextColmapParser;
+  const std::string extension = binary ? ".bin" : ".txt";
+  ColmapModel model;
+  const auto parse = [&](const std::string& part, auto parse_bytes) {
+    const fs::path path = folder / (part + extension);
+    parse_bytes(read_bytes(path), path.string(), model);
+  };
+  parse("cameras", parser.cameras);
+  parse("images", parser.images);
+  // Poses that were found by other means often come without.
+  if (is_file(folder / ("points3D" + extension))) parse("points3D", parser.points);
+  check(model, folder.string());
+  return model;
+}
+
+void write_colmap_model(const fs::path& folder, const ColmapModel& model, ColmapFormat format) {
+  const bool binary = format == ColmapFormat::kBinary;
+  if (!binary && has_parts(folder, ".bin"))
+    throw Error(ErrorCode::kInvalidArgument,
+                folder.string() +
+                    ": holds a binary model, which readers prefer to text; name another folder");
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error)
+    throw Error(ErrorCode::kIo, folder.string() + ": can't be written (" + error.message() + ")");
+  const ColmapPrinter& printer = binary ? kBinaryColmapPrinter : kTextColmapPrinter;
+  const std::string extension = binary ? ".bin" : ".txt";
+  write_file_atomically(folder / ("cameras" + extension), printer.cameras(model));
+  write_file_atomically(folder / ("points3D" + extension), printer.points(model));
+  write_file_atomically(folder / ("images" + extension), printer.images(model));
+}
+
+}  // namespace gigaray
