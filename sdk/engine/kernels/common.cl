@@ -315,21 +315,25 @@ static inline void planes_of(const float4* pixels, vfloat* planes) {
 #endif
 }
 
-// Bilinear samples of a view at LANES places: RGB, then gx and gy along the axes of the view. Returns 1
-// for lanes inside the picture and clear of masked pixels, else 0; those hold anything.
-static inline __attribute__((always_inline)) vfloat sample_lanes(__global const float* taps,
-                                                                 const BandParams p, int view,
-                                                                 vfloat x, vfloat y,
-                                                                 vfloat* sample) {
+// Bilinear samples of a view at LANES places: RGB, then gx and gy along the axes of the view. inside: 1
+// for lanes inside the picture and clear of masked pixels, else 0; those hold anything. Returns 0 when
+// no lane is inside the picture.
+static inline __attribute__((always_inline)) int sample_lanes(__global const float* taps,
+                                                              const BandParams p, int view,
+                                                              vfloat x, vfloat y, vfloat* sample,
+                                                              vfloat* inside) {
   const float right = (float)(p.width - 1), bottom = (float)(p.height - 1);
-  const vint is_inside = x >= -SNAP && x <= right + SNAP && y >= -SNAP && y <= bottom + SNAP;
-  if (!VANY(is_inside)) return (vfloat)(0.0f);
+  const vfloat in_picture =
+      VSELECT((vfloat)(0.0f), (vfloat)(1.0f),
+              x >= -SNAP && x <= right + SNAP && y >= -SNAP && y <= bottom + SNAP);
+  if (!(largest_lane(in_picture) > 0.0f)) return 0;
   x = clamp(x, 0.0f, right);
   y = clamp(y, (float)p.row_begin, (float)(p.row_end - 1));
   const vint xi = VFLOOR_INT(x), yi = VFLOOR_INT(y);
   const vfloat fx = x - VTO_FLOAT(xi), fy = y - VTO_FLOAT(yi);
-  const int pitch = p.width + 1, next = p.num_views * pitch;
-  const vint first = (yi - p.row_begin) * next + view * pitch + xi;
+  // In floats: a buffer has less than 2^31 of them.
+  const int pitch = (p.width + 1) * TAP_WIDTH, next = p.num_views * pitch;
+  const vint first = (yi - p.row_begin) * next + view * pitch + xi * TAP_WIDTH;
   const vint second = first + VSELECT((vint)(0), (vint)(next), yi + 1 < p.row_end);
   int upper[LANES], lower[LANES];
   float along[LANES], across[LANES];
@@ -343,8 +347,8 @@ static inline __attribute__((always_inline)) vfloat sample_lanes(__global const 
 #endif
   UNROLL
   for (int lane = 0; lane < LANES; ++lane) {
-    __global const float* a = taps + (size_t)upper[lane] * TAP_WIDTH;
-    __global const float* b = taps + (size_t)lower[lane] * TAP_WIDTH;
+    __global const float* a = taps + upper[lane];
+    __global const float* b = taps + lower[lane];
     const tap_t above = VLOAD_TAP(a), below = VLOAD_TAP(b);
     const tap_t top = above + along[lane] * (VLOAD_TAP(a + TAP_WIDTH) - above);
     const tap_t low = below + along[lane] * (VLOAD_TAP(b + TAP_WIDTH) - below);
@@ -365,7 +369,8 @@ static inline __attribute__((always_inline)) vfloat sample_lanes(__global const 
   sample[3] = planes[0];
   sample[4] = planes[1];
 #endif
-  return VSELECT((vfloat)(0.0f), (vfloat)(1.0f), is_inside && sample[0] >= MASKED_SAMPLE);
+  *inside = VSELECT((vfloat)(0.0f), in_picture, sample[0] >= MASKED_SAMPLE);
+  return 1;
 }
 
 #if LANES == 1

@@ -72,8 +72,7 @@ static inline Sample take_sample(__global const float* source, const BandParams 
 #else
   LanePlaces at;
   locate_lanes(ways, k, PIXELS_FROM(u), (vfloat)(v), h, &at);
-  inside = sample_lanes(source, p, k, at.x, at.y, colour);
-  if (!(largest_lane(inside) > 0.0f)) return nothing;
+  if (!sample_lanes(source, p, k, at.x, at.y, colour, &inside)) return nothing;
 #endif
   *count += inside;
   return relative_sample(colour, inside, own, inverse_h);

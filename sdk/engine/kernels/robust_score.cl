@@ -205,9 +205,8 @@ __kernel void robust_score(__global const float* taps, const BandParams p, const
         if (!members[k]) continue;
         LanePlaces at;
         locate_lanes(rays, k, PIXELS_FROM(u), (vfloat)(v), h, &at);
-        vfloat sample[CHANNELS];
-        const vfloat inside = sample_lanes(taps, p, k, at.x, at.y, sample);
-        if (!(largest_lane(inside) > 0.0f)) continue;
+        vfloat sample[CHANNELS], inside;
+        if (!sample_lanes(taps, p, k, at.x, at.y, sample, &inside)) continue;
         vfloat squared = (vfloat)(0.0f);
         UNROLL
         for (int c = 0; c < 3; ++c) squared += (sample[c] - own[c]) * (sample[c] - own[c]);
