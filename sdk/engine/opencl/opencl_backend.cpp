@@ -2,16 +2,15 @@
 // Copyright (c) 2026 The Gigaray authors
 #include <algorithm>
 #include <cmath>
-#include <functional>
-#include <optional>
+#include <map>
 
 #include "gigaray/samplers/any_sampler.h"
 #include "kernels/kernel_params.h"
+#include "opencl/kernel_set.h"
 #include "opencl/lane_kernel.h"
 #include "opencl/opencl_backend.h"
-#include "opencl/program_cache.h"
+#include "opencl/sampler_twin.h"
 #include "src/band_views.h"
-#include "src/view_sets.h"
 
 namespace gigaray {
 namespace {
@@ -19,11 +18,14 @@ namespace {
 using opencl::Buffer;
 using opencl::define;
 using opencl::Kernel;
+using opencl::kStagedVectors;
 using opencl::LaneKernel;
 using opencl::LocalMemory;
 using opencl::pack_sparse_blocks;
 using opencl::round_up;
+using opencl::SamplerTwin;
 using opencl::Scratch;
+using opencl::twin_of;
 using opencl::WorkSize;
 
 static_assert(StripMap<float>::kPad == GIGARAY_PAD);
@@ -34,27 +36,17 @@ constexpr int kWidestLanes = 16;
 /// Floats beside the states of a scan-line, see scanline.cl.
 constexpr int kScanlineMargin = 16;
 
-/// Local memory of density_score per view, see there; mean_radiance takes 3.
-constexpr int kStagedVectors = 4;
-
-/// The OpenCL twin of a sampler: of all views, or of those in a band; `ref` counts among them.
-struct SamplerTwin {
-  std::string kernel_file;
-  bool rays_shift_alike = true;
-  int num_views = 0;
-  std::function<std::vector<float>(int ref)> ray_table;
-  std::function<std::vector<std::uint8_t>(int ref, ScoreViews views)> score_members;
-  std::function<SamplerTwin(const std::vector<int>& views, int level)> of_band;
-};
-
 class OpenClBackend : public Backend {
  public:
   OpenClBackend(SamplerTwin sampler, const BackendSetup& setup, const std::string& selection,
                 opencl::TuningOverrides overrides)
       : all_views_(std::move(sampler)),
         setup_(setup),
-        overrides_(std::move(overrides)),
         device_(opencl::Device::open(selection)),
+        kernels_(
+            device_, all_views_.kernel_file,
+            define("CHANNELS", channels()) + define("SHIFT_ALIKE", all_views_.rays_shift_alike),
+            all_views_.num_views, std::move(overrides)),
         table_(colour_table(setup.bit_depth, setup.options.score.linear_rgb)) {
     hypotheses_ = {float(setup.hypotheses.min), float(setup.hypotheses.step()),
                    setup.hypotheses.count, int(round_up(setup.hypotheses.count, kWidestLanes))};
@@ -493,59 +485,20 @@ class OpenClBackend : public Backend {
     buffer.read(std::span(map.padded_row(rows.begin), std::size_t(rows.size()) * map.pitch()));
   }
 
-  Kernel build(const std::string& file, const std::string& entry, const std::string& options) {
-    const std::string kernel_file = file + ".cl";
-    const opencl::SourcePart parts[] = {
-        {"kernel_params.h", opencl::kernel_source("kernel_params.h")},
-        {"common.cl", opencl::kernel_source("common.cl")},
-        {all_views_.kernel_file, opencl::kernel_source(all_views_.kernel_file)},
-        {kernel_file, opencl::kernel_source(kernel_file)}};
-    return Kernel(device_,
-                  opencl::build_program(device_, parts,
-                                        options + define("CHANNELS", channels()) +
-                                            define("SHIFT_ALIKE", all_views_.rays_shift_alike)),
-                  entry);
-  }
-
   Kernel& plain_kernel(const std::string& file, const std::string& entry,
                        const std::string& options) {
-    auto [it, is_new] = plain_kernels_.try_emplace(entry + options);
-    if (is_new) it->second = build(file, entry, options);
-    return it->second;
+    return kernels_.plain(file, entry, options);
   }
-
   LaneKernel& lane_kernel(const std::string& file, const std::string& options,
-                          std::string entry = "") {
-    if (entry.empty()) entry = file;
-    auto [it, is_new] = lane_kernels_.try_emplace(entry + options);
-    if (is_new) {
-      const opencl::Tuning tuning = tuning_of(file);
-      const auto stage = tuning.find("STAGE"), units = tuning.find("UNITS");
-      it->second = {build(file, entry, opencl::defines(tuning) + options), tuning.at("LANES"),
-                    tuning.at("GROUP"), units == tuning.end() ? 1 : units->second,
-                    stage != tuning.end() && stage->second != 0};
-    }
-    return it->second;
-  }
-
-  opencl::Tuning tuning_of(const std::string& kernel) const {
-    opencl::Tuning tuning = opencl::lookup_tuning(device_.info(), kernel);
-    if (const auto own = overrides_.find(kernel); own != overrides_.end())
-      for (const auto& [name, value] : own->second) tuning[name] = value;
-    if (tuning.contains("STAGE")) {
-      // Only where local memory holds them.
-      const std::size_t bytes = std::size_t(kStagedVectors) * all_views_.num_views *
-                                tuning.at("LANES") * tuning.at("GROUP") * sizeof(float);
-      if (bytes > device_.info().local_memory) tuning["STAGE"] = 0;
-    }
-    return tuning;
+                          const std::string& entry = "") {
+    return kernels_.lanes(file, options, entry);
   }
 
   SamplerTwin all_views_;
   SamplerTwin band_views_;  ///< of the level and the loaded views
   BackendSetup setup_;
-  opencl::TuningOverrides overrides_;
   opencl::Device device_;
+  opencl::KernelSet kernels_;
   std::vector<float> table_;
   HypothesisParams hypotheses_{};
   BandParams band_{};
@@ -563,23 +516,7 @@ class OpenClBackend : public Backend {
   RowRange own_rows_;  ///< of own_pixels_, which stand for the reference view; empty: they don't
   Scratch shifts_, packed_, encoded_, mask_, band_memory_, taps_, own_pixels_, means_, raw_scores_,
       supported_scores_, path_scores_, maps_[6];
-  std::map<std::string, Kernel> plain_kernels_;
-  std::map<std::string, LaneKernel> lane_kernels_;
 };
-
-template <RaySampler S>
-SamplerTwin twin_of(const S& sampler, const HypothesisRange& hypotheses) {
-  return {std::string(S::kKernelFile),
-          S::kRaysShiftAlike,
-          sampler.num_views(),
-          [sampler](int ref) { return sampler.ray_table(ref); },
-          [sampler, hypotheses](int ref, ScoreViews views) {
-            return score_members(sampler, ref, views, hypotheses);
-          },
-          [sampler, hypotheses](const std::vector<int>& views, int level) {
-            return twin_of(sampler.subset(views).at_level(level), hypotheses);
-          }};
-}
 
 }  // namespace
 
