@@ -16,6 +16,7 @@
 #include "gigaray/adapters/depth_folder.h"
 #include "gigaray/metric_depth.h"
 #include "gigaray/reconstruct.h"
+#include "photographs.h"
 #include "view_list.h"
 
 namespace gigaray::cli {
@@ -132,7 +133,7 @@ ordered_json camera_json(const Camera& camera) {
 
 void run(const Settings& settings, const RunControl& control) {
   const auto begin = std::chrono::steady_clock::now();
-  LightField light_field = settings.run.input.open_light_field();
+  LightField light_field = open_or_find_cameras(settings.run.input, settings.output, control);
   for (const std::string& note : light_field.notes) control.message(note);
   DepthOptions options = settings.run.resolve(light_field, control);
   options.views = parse_views(settings.views, light_field);
@@ -216,6 +217,9 @@ Run depth_command(CLI::App& app) {
   app.description("Depth for every view of a light field");
   auto settings = std::make_shared<Settings>();
   settings->run.add_to(app);
+  app.add_flag("--find-cameras", settings->run.input.find_cameras,
+               "Find the cameras of a folder of pictures with COLMAP even if they look like a row "
+               "(default: when they don't)");
   app.add_option("-o,--output", settings->output,
                  "Folder for the result; replaced if it is an "
                  "older result")
