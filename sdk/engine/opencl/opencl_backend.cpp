@@ -442,7 +442,7 @@ class OpenClBackend : public Backend {
     band_views_ = all_views_.of_band(views, level_);
     std::vector<int> active;
     for (const int view : active_views_) active.push_back(places_[view]);
-    active_buffer_ = Buffer(device_, std::span<const int>(active));
+    if (!active.empty()) active_buffer_ = Buffer(device_, std::span<const int>(active));
     rays_ref_ = shifts_ref_ = -1;
     for (auto& [which, set] : view_sets_) set.ref = -1;
   }

@@ -58,6 +58,24 @@ void set_inverse_depths(LightField& light_field, const DepthOptions& options,
                   origin);
 }
 
+void check_partners(const LightField& light_field, const std::vector<int>& views,
+                    const RunControl& control) {
+  const UnstructuredSampler sampler(light_field.cameras, light_field.most_partners);
+  std::vector<std::string> alone;
+  for (const int view : views)
+    if (sampler.partners(view).size() < 2) alone.push_back(light_field.views[view].name);
+  if (alone.empty()) return;
+  std::ostringstream why;
+  why << "sees less than " << std::lround(100 * UnstructuredSampler::kLeastOverlap)
+      << " % of what any other view sees under less than " << UnstructuredSampler::kWidestAngle
+      << " degrees";
+  if (alone.size() == views.size())
+    throw Error(ErrorCode::kBadInput,
+                "no depth: each of the views " + why.str() + "; take more pictures in between");
+  for (const std::string& name : alone)
+    control.message("view " + name + " gets no depth: it " + why.str());
+}
+
 int count_hypotheses(const LightField& light_field, const DepthOptions& options) {
   const UnstructuredSampler sampler(light_field.cameras, light_field.most_partners);
   std::vector<double> counts;
@@ -69,10 +87,7 @@ int count_hypotheses(const LightField& light_field, const DepthOptions& options)
     std::nth_element(travels.begin(), travels.begin() + travels.size() / 2, travels.end());
     counts.push_back(travels[travels.size() / 2] / options.unstructured_step);
   }
-  if (counts.empty())
-    throw Error(ErrorCode::kBadInput,
-                "no two views see the same part of the scene: overlap below a third, or angles of "
-                "more than 40 degrees");
+  if (counts.empty()) return kLeastHypotheses;
   const auto most = counts.begin() + long(0.9 * double(counts.size() - 1));
   std::nth_element(counts.begin(), most, counts.end());
   return int(std::clamp(std::ceil(*most) + 1, double(kLeastHypotheses), double(kMostHypotheses)));

@@ -18,6 +18,11 @@ void set_inverse_depths(LightField& light_field, const DepthOptions& options,
 /// The range that holds those of all cameras.
 InverseDepthRange all_inverse_depths(const std::vector<Camera>& cameras);
 
+/// Says which views are compared with no other one and will have no depth. Throws Error(kBadInput)
+/// when that holds for all that are wanted.
+void check_partners(const LightField& light_field, const std::vector<int>& views,
+                    const RunControl& control);
+
 /// Hypotheses that every camera's range is sampled by, so that the step of the options is kept in
 /// nine of ten views, as far as the most that are reasonable go.
 int count_hypotheses(const LightField& light_field, const DepthOptions& options);

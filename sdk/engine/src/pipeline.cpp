@@ -268,6 +268,7 @@ void Pipeline::downsample(const std::vector<int>& views, RowRange band) {
 // ---- Views --------------------------------------------------------------------------------------
 
 bool Pipeline::find_todo(int active_idx, ViewMaps& maps) {
+  if (partners_[active_[active_idx]].size() < 2) return false;  // nothing to compare with
   const StageTimer timer(seconds_, "select");
   LevelState& state = levels_[level_];
   const int width = state.shape.width, height = state.shape.height;

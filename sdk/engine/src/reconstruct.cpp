@@ -90,6 +90,10 @@ void prepare_unstructured(Prepared& run, const RunControl& control, bool read_pi
   set_inverse_depths(run.light_field, run.options, control, read_pixels);
   const InverseDepthRange all = all_inverse_depths(run.light_field.cameras);
   run.options.disparity = DisparityRange{all.min, all.max};
+  check_partners(
+      run.light_field,
+      run.options.views.empty() ? all_views(run.light_field.num_views()) : run.options.views,
+      control);
   run.options.score.cubic = false;
   const int count = run.options.hypotheses > 0 ? run.options.hypotheses
                                                : count_hypotheses(run.light_field, run.options);
