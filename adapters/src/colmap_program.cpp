@@ -256,8 +256,7 @@ void find_cameras(Program& program, const fs::path& folder, const fs::path& work
   };
   const std::string problem = program.run("COLMAP: cameras", arguments, progress);
   // A mapper that finds nothing fails too; that is about the photographs.
-  if (!problem.empty() && problem.find("status 1") == std::string::npos)
-    program.fail("mapper", problem);
+  if (!problem.empty() && problem != "ended with status 1") program.fail("mapper", problem);
 }
 
 std::string list_text(const Words& names) {
