@@ -133,10 +133,7 @@ bool share_one_camera(const std::vector<PictureSpec>& specs) {
 }
 
 Words camera_arguments(const fs::path& folder, const Words& names,
-                       const std::optional<Lens>& lens) {
-  std::vector<PictureSpec> specs;
-  for (const std::string& name : names)
-    specs.push_back(read_picture_spec(folder / name, Orientation::kIgnored));
+                       const std::vector<PictureSpec>& specs, const std::optional<Lens>& lens) {
   if (!lens) {
     // A shared camera is seen by enough photographs to find more of its distortion.
     constexpr std::size_t kEnough = 8;
@@ -157,6 +154,16 @@ Words camera_arguments(const fs::path& folder, const Words& names,
   for (std::size_t i = 0; i < lens->params.size(); ++i) params << (i ? "," : "") << lens->params[i];
   return {"--ImageReader.single_camera", "1",         "--ImageReader.camera_model", lens->model,
           "--ImageReader.camera_params", params.str()};
+}
+
+/// Photographs of today have more features than are kept, and those found in an enlarged copy are
+/// the first to go: without it the search takes a quarter of the time.
+Words octave_arguments(const std::vector<PictureSpec>& specs) {
+  constexpr int kLarge = 1200;  // px
+  const bool large = std::all_of(specs.begin(), specs.end(), [](const PictureSpec& spec) {
+    return std::max(spec.width, spec.height) >= kLarge;
+  });
+  return {"--SiftExtraction.first_octave", large ? "0" : "-1"};
 }
 
 /// A folder with the names that COLMAP looks for, when there are masks.
@@ -195,7 +202,10 @@ void prepare(const fs::path& work) {
 
 void find_features(Program& program, const fs::path& folder, const fs::path& work,
                    const Words& names, const ColmapRunOptions& options) {
-  const Words cameras = camera_arguments(folder, names, options.lens);
+  std::vector<PictureSpec> specs;
+  for (const std::string& name : names)
+    specs.push_back(read_picture_spec(folder / name, Orientation::kIgnored));
+  const Words cameras = camera_arguments(folder, names, specs, options.lens);
   const Words masks = mask_arguments(options.masks, names, work);
   std::string list;
   for (const std::string& name : names) list += name + "\n";
@@ -209,6 +219,7 @@ void find_features(Program& program, const fs::path& folder, const fs::path& wor
       joined({{"feature_extractor", "--database_path", work / "database.db", "--image_path", folder,
                "--image_list_path", work / "photographs.txt", on_gpu, "0",
                "--SiftExtraction.max_num_features", many ? "4096" : "8192"},
+              octave_arguments(specs),
               cameras,
               masks}),
       progress_in_brackets);
@@ -245,8 +256,7 @@ void find_cameras(Program& program, const fs::path& folder, const fs::path& work
   };
   const std::string problem = program.run("COLMAP: cameras", arguments, progress);
   // A mapper that finds nothing fails too; that is about the photographs.
-  if (!problem.empty() && problem.find("status 1") == std::string::npos)
-    program.fail("mapper", problem);
+  if (!problem.empty() && problem != "ended with status 1") program.fail("mapper", problem);
 }
 
 std::string list_text(const Words& names) {
