@@ -3,6 +3,7 @@
 // A folder of numbered pictures, taken along a line at equal steps or at stated positions.
 #include <algorithm>
 #include <cstdint>
+#include <optional>
 
 #include "camera_position.h"
 #include "gigaray/adapters/photographs.h"
@@ -160,12 +161,13 @@ class ImageSequenceReader : public Reader {
 
 std::string why_no_series(const fs::path& folder) {
   const std::vector<fs::path> pictures = pictures_of(folder);
-  std::vector<PictureSpec> specs;
-  for (const fs::path& picture : pictures)
-    specs.push_back(read_picture_spec(picture, Orientation::kApplied));
-  for (const PictureSpec& spec : specs)
-    if (spec.width != specs.front().width || spec.height != specs.front().height)
-      return folder.string() + ": the pictures have several sizes";
+  std::optional<PictureSpec> first;
+  for (const fs::path& picture : pictures) {
+    const PictureSpec spec = read_picture_spec(picture, Orientation::kApplied);
+    if (!first) first = spec;
+    if (spec.width != first->width && spec.width == first->height && spec.height == first->width)
+      return folder.string() + ": some pictures are upright, some on their side";
+  }
   try {
     series_of(folder, pictures);
   } catch (const Error& problem) {

@@ -15,8 +15,10 @@ namespace gigaray {
 /// Is the input a folder of pictures with nothing that says where they were taken?
 bool is_plain_folder(const std::filesystem::path& input, const OpenOptions& options);
 
-/// Why the pictures of a plain folder can't be views along a line: names without numbers, several
-/// series, several sizes. Empty: they may be. Throws Error(kBadInput) naming a damaged picture.
+/// Why the pictures of a plain folder can't be views along a line, and are photographs from
+/// anywhere: names without numbers, several series, upright ones and ones on their side. Empty:
+/// they may be, or they should be and are damaged (one has another size). Throws Error(kBadInput)
+/// naming an unreadable picture.
 std::string why_no_series(const std::filesystem::path& folder);
 
 /// Is a series of pictures what a 3D light field is, that is, do things move along the rows (or the
