@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "cameras.h"
 #include "command.h"
 #include "depth_options_cli.h"
 #include "gigaray/adapters/depth_folder.h"
@@ -117,20 +118,6 @@ const char* disparity_unit(const LightField& light_field) {
              : "level-0 px per view step; positive is nearer";
 }
 
-/// In the convention of docs/conventions.md.
-ordered_json camera_json(const Camera& camera) {
-  ordered_json rotation = ordered_json::array();
-  for (int row = 0; row < 3; ++row)
-    rotation.push_back({camera.rotation(row, 0), camera.rotation(row, 1), camera.rotation(row, 2)});
-  return {{"width", camera.width},
-          {"height", camera.height},
-          {"focal_px", {camera.focal_u, camera.focal_v}},
-          {"principal_point_px", {camera.centre_u, camera.centre_v}},
-          {"rotation", rotation},
-          {"translation", {camera.translation.x(), camera.translation.y(), camera.translation.z()}},
-          {"inverse_depth", {camera.inverse_depth->min, camera.inverse_depth->max}}};
-}
-
 void run(const Settings& settings, const RunControl& control) {
   const auto begin = std::chrono::steady_clock::now();
   LightField light_field = open_or_find_cameras(settings.run.input, settings.output, control);
@@ -147,7 +134,6 @@ void run(const Settings& settings, const RunControl& control) {
 
   Reconstruction result = reconstruct(light_field, options, settings.run.backend(), control);
 
-  folder.set_pictured({result.hypotheses().min, result.hypotheses().max});
   const int centre = views_from_centre(light_field).front();
   ordered_json views = ordered_json::array();
   Coverage all(result.num_levels()), of_centre(result.num_levels());
@@ -170,11 +156,15 @@ void run(const Settings& settings, const RunControl& control) {
     }
     all.add(depth);
     if (active[i] == top) of_centre.add(depth);
-    folder.write_view(active[i], std::move(depth.disparity), std::move(depth.confidence),
-                      active[i] == top);
+    DisparityRange pictured{result.hypotheses().min, result.hypotheses().max};
     views.push_back({{"name", view.name}, {"s", view.s}, {"t", view.t}});
-    if (!result.cameras().empty())
-      views.back()["camera"] = camera_json(result.cameras()[active[i]]);
+    if (!result.cameras().empty()) {
+      const Camera& camera = result.cameras()[active[i]];
+      views.back()["camera"] = camera_json(camera);
+      pictured = {camera.inverse_depth->min, camera.inverse_depth->max};
+    }
+    folder.write_view(active[i], std::move(depth.disparity), std::move(depth.confidence), pictured,
+                      active[i] == top);
   }
 
   const double seconds =

@@ -27,13 +27,20 @@ void DepthRunOptions::add_to(CLI::App& app) {
   add_preset_option(app, preset);
   app.add_option(
          "--disparity", disparity,
-         "Range to test, px per view step, positive is nearer (default: from the input, else "
-         "estimated)")
+         "Range to test, px per view step, positive is nearer; of photographs with cameras inverse "
+         "depth, 1 / scene unit (default: from the input, else estimated)")
       ->expected(2)
       ->type_name("MIN MAX");
-  app.add_option("--hypotheses", hypotheses,
-                 "Number of disparities to test, 2 … 4096 (default: 256 "
-                 "for paper, one every 0.035 px for auto)")
+  app.add_option(
+         "--hypotheses", hypotheses,
+         "Number of disparities to test, 2 … 4096 (default: 256 for paper, one every 0.035 px for "
+         "auto; of photographs with cameras as many as their distances ask for)")
+      ->type_name("N");
+  app.add_option(
+         "--partners", most_partners,
+         "Photographs with cameras: compare each with so many others, those that share most "
+         "of its scene from an angle that tells most (default: all that share enough)")
+      ->check(CLI::Range(1, 1000))
       ->type_name("N");
   app.add_option("--device", device,
                  "OpenCL device: index or part of its name, see `gigaray devices`; `reference` for "
@@ -55,6 +62,7 @@ DepthOptions DepthRunOptions::resolve(LightField& light_field, const RunControl&
   DepthOptions options = preset_options(preset);
   if (!disparity.empty()) options.disparity = DisparityRange{disparity[0], disparity[1]};
   if (hypotheses != 0) options.hypotheses = hypotheses;
+  options.most_partners = most_partners;
   options.memory_bytes = memory_gib * double(1 << 30);
   options.work_folder = work_folder;
   options.check();

@@ -20,6 +20,7 @@ struct DepthRunOptions {
   std::string preset = "auto";
   std::vector<double> disparity;  ///< empty or MIN MAX
   int hypotheses = 0;
+  int most_partners = 0;  ///< of unstructured views; 0: all
   std::string device;
   double memory_gib = 0;
   std::string work_folder;

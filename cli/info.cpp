@@ -10,8 +10,10 @@
 #include <string>
 #include <vector>
 
+#include "cameras.h"
 #include "command.h"
 #include "depth_options_cli.h"
+#include "gigaray/adapters/photographs.h"
 #include "gigaray/reconstruct.h"
 
 namespace gigaray::cli {
@@ -127,10 +129,11 @@ std::string forecast_text(const DepthForecast& depth) {
   return text;
 }
 
+void line(const std::string& label, const std::string& text) {
+  fmt::print("{:<11}{}\n", label, text);
+}
+
 void print_text(const LightField& light_field, const DepthForecast& depth) {
-  const auto line = [](const char* label, const std::string& text) {
-    fmt::print("{:<11}{}\n", label, text);
-  };
   const std::vector<View>& views = light_field.views;
   line("format", fmt::format("{}, {}", light_field.format, to_string(light_field.kind)));
   line("views", fmt::format("{}, {} … {}", views.size(), views.front().name, views.back().name));
@@ -138,6 +141,7 @@ void print_text(const LightField& light_field, const DepthForecast& depth) {
                            light_field.pixels->bit_depth()));
   const Bounds s = bounds(views, [](const View& view) { return view.s; });
   const Bounds t = bounds(views, [](const View& view) { return view.t; });
+  const bool posed = light_field.kind == LightFieldKind::kUnstructured;
   line("positions", light_field.kind == LightFieldKind::k3D
                         ? fmt::format("s {:.4g} … {:.4g} view steps", s.min, s.max)
                         : fmt::format("s {:.4g} … {:.4g}, t {:.4g} … {:.4g} view steps", s.min,
@@ -147,12 +151,16 @@ void print_text(const LightField& light_field, const DepthForecast& depth) {
   if (!light_field.left_out.empty())
     line("left out", fmt::format("{}, drawn as -", light_field.left_out.size()));
   line("centre", views[centre_view(light_field)].name);
-  line("rig", rig_text(light_field.rig));
-  line("disparity",
-       light_field.declared_range
-           ? fmt::format("{:.4g} … {:.4g} px per view step, declared",
-                         light_field.declared_range->min, light_field.declared_range->max)
-           : "range not declared");
+  if (posed) {
+    for (const auto& [label, text] : describe_cameras(light_field)) line(label, text);
+  } else {
+    line("rig", rig_text(light_field.rig));
+    line("disparity",
+         light_field.declared_range
+             ? fmt::format("{:.4g} … {:.4g} px per view step, declared",
+                           light_field.declared_range->min, light_field.declared_range->max)
+             : "range not declared");
+  }
   line("depth", forecast_text(depth));
   for (const std::string& note : light_field.notes) line("note", note);
 }
@@ -187,8 +195,14 @@ void print_json(const LightField& light_field, const DepthForecast& depth) {
     root["forecast"] = {{"refusal", depth.refusal}};
   root["notes"] = light_field.notes;
   root["views"] = ordered_json::array();
-  for (const View& view : light_field.views)
+  const std::vector<int> partners = count_partners(light_field);
+  for (int i = 0; i < light_field.num_views(); ++i) {
+    const View& view = light_field.views[i];
     root["views"].push_back({{"name", view.name}, {"s", view.s}, {"t", view.t}});
+    if (!light_field.cameras.empty())
+      root["views"].back()["camera"] = camera_json(light_field.cameras[i]);
+    if (!partners.empty()) root["views"].back()["partners"] = partners[i];
+  }
   root["left_out"] = ordered_json::array();
   for (const View& view : light_field.left_out)
     root["left_out"].push_back({{"name", view.name}, {"s", view.s}, {"t", view.t}});
@@ -205,7 +219,14 @@ Run info_command(CLI::App& app) {
   add_memory_option(app, options->memory_gib);
   app.add_flag("--json", options->json, "Print JSON");
   return [options](const RunControl&) {
-    const LightField light_field = options->input.open_light_field();
+    const InputOptions& input = options->input;
+    if (is_plain_folder(input.input, input.open))
+      if (const std::string why = why_no_series(input.input); !why.empty())
+        throw Error(ErrorCode::kBadInput,
+                    why +
+                        "; as photographs from anywhere they get cameras from `gigaray depth`, "
+                        "which runs COLMAP");
+    const LightField light_field = input.open_light_field();
     const DepthForecast depth = forecast_depth(light_field, *options);
     if (options->json)
       print_json(light_field, depth);

@@ -6,6 +6,8 @@
 #include <regex>
 #include <string>
 
+#include "gigaray/adapters/shrunk.h"
+
 namespace gigaray::cli {
 namespace {
 
@@ -42,6 +44,12 @@ void parse_lenslet(const std::string& text, OpenOptions& open) {
 
 }  // namespace
 
+LightField InputOptions::open_light_field(const std::filesystem::path& place,
+                                          const OpenOptions& options) const {
+  LightField light_field = gigaray::open_light_field(place, options);
+  return max_size > 0 ? shrunk(std::move(light_field), max_size) : light_field;
+}
+
 void InputOptions::add_to(CLI::App& app) {
   app.add_option("INPUT", input, "Folder or file of the light field")->required();
   app.add_option("--positions", open.positions,
@@ -67,6 +75,10 @@ void InputOptions::add_to(CLI::App& app) {
                  "Photographs with cameras: folder of masks, black is left out; NAME.png for the "
                  "picture NAME")
       ->type_name("DIR");
+  app.add_option("--max-size", max_size,
+                 "Shrink pictures that have more pixels than this on a side (default: as they are)")
+      ->check(CLI::Range(16, 1 << 20))
+      ->type_name("PX");
 }
 
 }  // namespace gigaray::cli

@@ -13,10 +13,13 @@ namespace gigaray::cli {
 struct InputOptions {
   std::filesystem::path input;
   OpenOptions open;
+  int max_size = 0;           ///< px; larger pictures are shrunk; 0: none
   bool find_cameras = false;  ///< of a folder of pictures, with COLMAP, even if they form a row
 
   void add_to(CLI::App& app);
-  LightField open_light_field() const { return gigaray::open_light_field(input, open); }
+  LightField open_light_field() const { return open_light_field(input, open); }
+  /// The same of another place, with the options that don't name one.
+  LightField open_light_field(const std::filesystem::path& place, const OpenOptions& options) const;
 };
 
 }  // namespace gigaray::cli

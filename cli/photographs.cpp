@@ -61,7 +61,7 @@ LightField find_cameras(const InputOptions& input, const fs::path& work,
   open.masks = input.open.masks;
   if (text_of(work / kRecord) == record) {
     control.message(fmt::format("cameras as COLMAP found them before, in {}", work.string()));
-    return open_light_field(work, open);
+    return input.open_light_field(work, open);
   }
   // What an earlier run left behind: of other photographs, or unfinished.
   if (fs::exists(work / kRecord) || fs::exists(work / "colmap.log")) fs::remove_all(work);
@@ -71,7 +71,7 @@ LightField find_cameras(const InputOptions& input, const fs::path& work,
   control.message(fmt::format("COLMAP found the cameras of {} of {} photographs (log: {})",
                               run.num_registered, run.num_pictures, run.log.string()));
   write_file_atomically(work / kRecord, record);
-  return open_light_field(work, open);
+  return input.open_light_field(work, open);
 }
 
 }  // namespace

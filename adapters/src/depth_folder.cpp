@@ -24,10 +24,10 @@ Image<T> cropped(const Image<T>& image, int width, int height) {
 }  // namespace
 
 void DepthFolder::write_maps(const std::filesystem::path& folder, const FloatMap& disparity,
-                             const FloatMap& confidence) const {
+                             const FloatMap& confidence, DisparityRange pictured) const {
   write_pfm(folder / "disparity.pfm", disparity);
   write_pfm(folder / "confidence.pfm", confidence);
-  write_depth_picture(folder / "depth.png", disparity, pictured_);
+  write_depth_picture(folder / "depth.png", disparity, pictured);
   if (has_metric_depth(light_field_))
     write_pfm(folder / "depth.pfm", depth_from_disparity(disparity, light_field_));
   if (formats_.contains(MapFormat::kExr)) {
@@ -39,7 +39,7 @@ void DepthFolder::write_maps(const std::filesystem::path& folder, const FloatMap
     write_npy(folder / "confidence.npy", confidence);
   }
   if (formats_.contains(MapFormat::kPng16))
-    write_png16(folder / "disparity16.png", disparity, pictured_);
+    write_png16(folder / "disparity16.png", disparity, pictured);
 }
 
 void DepthFolder::write_picture(const std::filesystem::path& folder, int view_idx) const {
@@ -51,7 +51,7 @@ void DepthFolder::write_picture(const std::filesystem::path& folder, int view_id
 }
 
 void DepthFolder::write_view(int view_idx, FloatMap disparity, FloatMap confidence,
-                             bool is_centre) {
+                             DisparityRange pictured, bool is_centre) {
   const std::filesystem::path folder = folder_.path() / light_field_.views[view_idx].name;
   std::error_code error;
   std::filesystem::create_directories(folder, error);
@@ -63,9 +63,9 @@ void DepthFolder::write_view(int view_idx, FloatMap disparity, FloatMap confiden
     confidence = cropped(confidence, camera.width, camera.height);
     write_picture(folder, view_idx);
   }
-  write_maps(folder, disparity, confidence);
+  write_maps(folder, disparity, confidence, pictured);
   if (!is_centre) return;
-  write_maps(folder_.path(), disparity, confidence);
+  write_maps(folder_.path(), disparity, confidence, pictured);
   if (unstructured) write_picture(folder_.path(), view_idx);
 }
 

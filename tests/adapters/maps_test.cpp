@@ -242,7 +242,7 @@ TEST_F(DepthOutput, MetricDepthIsThereWhenTheRigIsKnown) {
     light_field.rig.focus_distance = 5;
     const std::filesystem::path target = folder / (known ? "known" : "unknown");
     DepthFolder out(target, {}, light_field);
-    out.write_view(0, disparity, confidence, true);
+    out.write_view(0, disparity, confidence, {-1, 1}, true);
     out.commit("{}");
     EXPECT_EQ(exists(target / "depth.pfm"), known);
     EXPECT_EQ(exists(target / "a" / "depth.pfm"), known);
@@ -262,7 +262,7 @@ TEST_F(DepthOutput, UnstructuredViewsGetDepthAndTheirPictureInTheirOwnSize) {
   FloatMap disparity(5, 3, 1, 0.25f);
   disparity(1, 1) = 0;
   DepthFolder out(folder / "out", {}, light_field);
-  out.write_view(0, disparity, FloatMap(5, 3, 1, 1), true);
+  out.write_view(0, disparity, FloatMap(5, 3, 1, 1), {-1, 1}, true);
   out.commit("{}");
   for (const auto& place : {folder / "out", folder / "out" / "a"}) {
     const FloatMap depth = read_pfm(place / "depth.pfm");

@@ -47,6 +47,15 @@ void check(const Camera& camera, const std::string& name) {
     bad("its range of depths is empty");
 }
 
+InverseDepthRange all_inverse_depths(const std::vector<Camera>& cameras) {
+  InverseDepthRange all = *cameras.front().inverse_depth;
+  for (const Camera& camera : cameras) {
+    all.min = std::min(all.min, camera.inverse_depth->min);
+    all.max = std::max(all.max, camera.inverse_depth->max);
+  }
+  return all;
+}
+
 std::optional<InverseDepthRange> range_of_depths(std::vector<double> depths) {
   constexpr std::size_t kLeastPoints = 8;
   constexpr double kPercentile = 0.005, kMargin = 0.2;

@@ -27,15 +27,6 @@ std::string range_text(const InverseDepthRange& range) {
 
 }  // namespace
 
-InverseDepthRange all_inverse_depths(const std::vector<Camera>& cameras) {
-  InverseDepthRange all = *cameras.front().inverse_depth;
-  for (const Camera& camera : cameras) {
-    all.min = std::min(all.min, camera.inverse_depth->min);
-    all.max = std::max(all.max, camera.inverse_depth->max);
-  }
-  return all;
-}
-
 void set_inverse_depths(LightField& light_field, const DepthOptions& options,
                         const RunControl& control, bool read_pixels) {
   std::vector<Camera>& cameras = light_field.cameras;

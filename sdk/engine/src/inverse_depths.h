@@ -15,9 +15,6 @@ namespace gigaray {
 void set_inverse_depths(LightField& light_field, const DepthOptions& options,
                         const RunControl& control, bool read_pixels);
 
-/// The range that holds those of all cameras.
-InverseDepthRange all_inverse_depths(const std::vector<Camera>& cameras);
-
 /// Says which views are compared with no other one and will have no depth. Throws Error(kBadInput)
 /// when that holds for all that are wanted.
 void check_partners(const LightField& light_field, const std::vector<int>& views,

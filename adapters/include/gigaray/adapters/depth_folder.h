@@ -31,24 +31,21 @@ class DepthFolder {
         formats_(std::move(formats)),
         light_field_(std::move(light_field)) {}
 
-  /// Range of the colours of depth.png and of 16-bit PNGs; before the first view.
-  void set_pictured(DisparityRange range) { pictured_ = range; }
-
   /// disparity, confidence: (v, u) of the view, NaN where there is no estimate. Cut to the size of
-  /// the view's own picture.
-  void write_view(int view_idx, FloatMap disparity, FloatMap confidence, bool is_centre);
+  /// the view's own picture. pictured: range of the colours of depth.png and of 16-bit PNGs.
+  void write_view(int view_idx, FloatMap disparity, FloatMap confidence, DisparityRange pictured,
+                  bool is_centre);
 
   /// Adds gigaray.json and puts the folder in its place.
   void commit(const std::string& json);
 
  private:
   void write_maps(const std::filesystem::path& folder, const FloatMap& disparity,
-                  const FloatMap& confidence) const;
+                  const FloatMap& confidence, DisparityRange pictured) const;
   void write_picture(const std::filesystem::path& folder, int view_idx) const;
 
   AtomicFolder folder_;
   std::set<MapFormat> formats_;
-  DisparityRange pictured_{-1, 1};
   LightField light_field_;
 };
 

@@ -69,7 +69,7 @@ struct LightField {
   int width = 0;   ///< u, all views alike
   int height = 0;  ///< v
   std::vector<View> views;
-  std::vector<Camera> cameras;                   ///< kUnstructured: one per view; else empty
+  std::vector<Camera> cameras;  ///< kUnstructured: one per view; else empty
   /// kUnstructured: most views that each is compared with, the best by overlap and angle; 0: all
   /// that see the same.
   int most_partners = 0;
