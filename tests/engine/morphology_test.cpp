@@ -62,6 +62,16 @@ TEST(OpenMask, IsIdempotentAndNeverAdds) {
       EXPECT_FALSE(once[v][u] == '#' && picture[v][u] == '.');
 }
 
+TEST(OpenMask, ALargerDiamondTakesWiderLines) {
+  StripMap<std::uint8_t> mask(40, {0, 30});
+  for (int v = 5; v < 25; ++v) {
+    for (int u = 4; u < 10; ++u) mask.row(v)[u] = 1;   // six wide
+    for (int u = 20; u < 27; ++u) mask.row(v)[u] = 1;  // seven wide
+  }
+  const StripMap<std::uint8_t> open = open_mask(mask, {0, 30}, 30, 3);
+  for (int u = 0; u < 40; ++u) EXPECT_EQ(open.row(15)[u], u >= 20 && u < 27) << u;
+}
+
 TEST(OpenMask, ABandGivesTheSameRowsAsThePicture) {
   std::mt19937 random(8);
   Picture picture(19, std::string(21, '.'));

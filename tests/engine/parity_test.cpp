@@ -144,7 +144,7 @@ TYPED_TEST(Parity, PaperScores) {
       bench.reference->density_score(3, bench.rows(), todo, bounds);
       bench.opencl->density_score(3, bench.rows(), todo, bounds);
       this->expect_within(variant.stage,
-                          compare_scores(bench, bench.rows(), todo, bounds, variant.tolerance),
+                          compare_scores(bench, bench.rows(), todo, variant.tolerance),
                           variant.tolerance);
     }
 }
@@ -170,8 +170,7 @@ TYPED_TEST(Parity, RobustScores) {
       for (const int ref : {3, 0}) {
         for (Backend* backend : {bench.reference.get(), bench.opencl.get()})
           backend->robust_score(ref, bench.rows(), todo, bounds, variant.views);
-        this->expect_within(variant.stage, compare_scores(bench, bench.rows(), todo, bounds, 1),
-                            kScore);
+        this->expect_within(variant.stage, compare_scores(bench, bench.rows(), todo, 1), kScore);
       }
     }
 }
@@ -185,8 +184,8 @@ TYPED_TEST(Parity, FirstLookAtSomeOfManyViews) {
     const auto bounds = bench.full_bounds(bench.rows());
     for (Backend* backend : {bench.reference.get(), bench.opencl.get()})
       backend->robust_score(30, bench.rows(), todo, bounds, ScoreViews::kFirst);
-    this->expect_within("robust score, some views",
-                        compare_scores(bench, bench.rows(), todo, bounds, 1), kScore);
+    this->expect_within("robust score, some views", compare_scores(bench, bench.rows(), todo, 1),
+                        kScore);
   }
 }
 
@@ -217,18 +216,17 @@ TYPED_TEST(Parity, RayMeansAndWhatIsScoredAgainstThem) {
       backend->replace_reference(around, expected);
       backend->robust_score(2, around, all, full, ScoreViews::kAll);
     }
-    this->expect_within("robust score against means",
-                        compare_scores(bench, bench.rows(), all, full, 1), kScore);
+    this->expect_within("robust score against means", compare_scores(bench, bench.rows(), all, 1),
+                        kScore);
     for (Backend* backend : {bench.reference.get(), bench.opencl.get()})
       backend->score_support(2, bench.rows(), all, full);
-    this->expect_within("score support by means", compare_scores(bench, bench.rows(), all, full, 1),
+    this->expect_within("score support by means", compare_scores(bench, bench.rows(), all, 1),
                         kScore);
     for (Backend* backend : {bench.reference.get(), bench.opencl.get()}) {
       backend->restore_reference();
       backend->robust_score(2, around, all, full, ScoreViews::kAll);
     }
-    this->expect_within("robust score, restored", compare_scores(bench, around, all, full, 1),
-                        kScore);
+    this->expect_within("robust score, restored", compare_scores(bench, around, all, 1), kScore);
   }
 }
 
@@ -251,7 +249,7 @@ TYPED_TEST(Parity, RegularRigs) {
             backend->density_score(1, bench.rows(), todo, bounds);
         }
         this->expect_within("score, regular rig, " + preset.preset,
-                            compare_scores(bench, bench.rows(), todo, bounds, kScore), kScore);
+                            compare_scores(bench, bench.rows(), todo, kScore), kScore);
       }
 }
 
@@ -270,12 +268,10 @@ TYPED_TEST(Parity, SupportedScores) {
       backend->robust_score(0, around, all, full, ScoreViews::kAll);
       backend->score_support(0, bench.rows(), todo, bounds);
     }
-    this->expect_within("score support", compare_scores(bench, bench.rows(), todo, bounds, 1),
-                        kScore);
+    this->expect_within("score support", compare_scores(bench, bench.rows(), todo, 1), kScore);
     for (Backend* backend : {bench.reference.get(), bench.opencl.get()})
       backend->slanted_support(0, bench.rows(), todo, bounds, slopes);
-    this->expect_within("slanted support", compare_scores(bench, bench.rows(), todo, bounds, 1),
-                        kScore);
+    this->expect_within("slanted support", compare_scores(bench, bench.rows(), todo, 1), kScore);
   }
 }
 

@@ -131,5 +131,61 @@ TEST(SearchBounds, IndicesStayWithinTheRange) {
   EXPECT_EQ(bounds_of(search, kRange).first, 0);
 }
 
+struct Holes {
+  StripMap<std::uint8_t> todo{60, {0, 40}};
+  StripMap<float> estimates{60, {0, 40}};
+  StripMap<HypothesisBounds> bounds{60, {0, 40}};
+
+  /// A surface at 1 with a nearer one at 2 from column 30 on.
+  Holes() {
+    for (int v = 0; v < 40; ++v)
+      for (int u = 0; u < 60; ++u) {
+        estimates.row(v)[u] = u < 30 ? 1 : 2;
+        bounds.row(v)[u] = {0, 100};
+      }
+  }
+  void punch(int u, int width) {
+    for (int v = 10; v < 30; ++v)
+      for (int x = u; x < u + width; ++x) {
+        todo.row(v)[x] = 1;
+        estimates.row(v)[x] = kNoEstimate;
+      }
+  }
+};
+
+TEST(BoundThinHoles, AThinHoleIsSearchedBetweenTheEstimatesAroundIt) {
+  Holes holes;
+  holes.punch(10, 4);
+  holes.punch(28, 3);
+  bound_thin_holes(holes.todo, holes.estimates, kRange, holes.bounds);
+  // A hypothesis every 0.05 from -2 on: 1 is number 60, 2 is number 80.
+  EXPECT_EQ(holes.bounds.row(20)[11].first, 60 - 8);
+  EXPECT_EQ(holes.bounds.row(20)[11].last, 60 + 8);
+  EXPECT_EQ(holes.bounds.row(20)[29].first, 60 - 8);
+  EXPECT_EQ(holes.bounds.row(20)[29].last, 80 + 8);
+}
+
+TEST(BoundThinHoles, AWideHoleAndOtherPixelsKeepTheirBounds) {
+  Holes holes;
+  holes.punch(10, 9);
+  bound_thin_holes(holes.todo, holes.estimates, kRange, holes.bounds);
+  for (const int u : {5, 14, 40}) {
+    EXPECT_EQ(holes.bounds.row(20)[u].first, 0);
+    EXPECT_EQ(holes.bounds.row(20)[u].last, 100);
+  }
+}
+
+TEST(BoundThinHoles, NothingAroundLeavesTheFullRange) {
+  Holes holes;
+  holes.punch(0, 60);
+  for (int v = 0; v < 40; ++v)
+    for (int u = 0; u < 60; ++u) {
+      holes.estimates.row(v)[u] = kNoEstimate;
+      holes.todo.row(v)[u] = v == 20;
+    }
+  bound_thin_holes(holes.todo, holes.estimates, kRange, holes.bounds);
+  EXPECT_EQ(holes.bounds.row(20)[30].last, 100);
+}
+
 }  // namespace
 }  // namespace gigaray

@@ -81,13 +81,36 @@ static inline size_t score_index(const StripParams strip, const HypothesisParams
   return GIGARAY_PAD + ((size_t)row * strip.width + u) * hypotheses.pitch;
 }
 
+// First and last hypothesis that each of LANES neighbouring pixels wants tested; last is -1 where there
+// is nothing to do.
+typedef struct {
+  int first[LANES], last[LANES];
+} LaneBounds;
+
 // Writes the scores of LANES neighbouring pixels under one hypothesis; column: score_index of the first.
-static inline void store_scores(__global float* column, const HypothesisParams hypotheses, int i,
-                                int pixels, vfloat value) {
+static inline void store_scores(__global float* column, const HypothesisParams hypotheses,
+                                const LaneBounds* tested, int i, vfloat value) {
   float lanes[LANES];
   VSTORE(value, lanes);
   for (int lane = 0; lane < LANES; ++lane)
-    if (lane < pixels) column[(size_t)lane * hypotheses.pitch + i] = lanes[lane];
+    if (i >= tested->first[lane] && i <= tested->last[lane])
+      column[(size_t)lane * hypotheses.pitch + i] = lanes[lane];
+}
+
+// Hypotheses that a pixel does not want tested get the score of the first or the last one that is: its
+// neighbours may ask for them.
+static inline void repeat_ends(__global float* column, const HypothesisParams hypotheses, int first,
+                               int last) {
+  for (int i = 0; i < first; ++i) column[i] = column[first];
+  for (int i = last + 1; i < hypotheses.count; ++i) column[i] = column[last];
+}
+
+static inline void repeat_ends_of_lanes(__global float* column, const HypothesisParams hypotheses,
+                                        const LaneBounds* tested) {
+  for (int lane = 0; lane < LANES; ++lane)
+    if (tested->last[lane] >= 0)
+      repeat_ends(column + (size_t)lane * hypotheses.pitch, hypotheses, tested->first[lane],
+                  tested->last[lane]);
 }
 
 // Sum of kernels over the views that see the point, but at least over floor_views of them; -1 where
@@ -177,13 +200,15 @@ static inline vfloat colour_distance2(__global const float* a, __global const fl
 
 // First and last hypothesis that any pixel of a block wants tested; last is -1 when none is to do.
 static inline int2 block_bounds(__global const uchar* todo, __global const ushort2* bounds,
-                                const StripParams strip, int row, int u) {
+                                const StripParams strip, int row, int u, LaneBounds* tested) {
   int2 block = (int2)(INT_MAX, -1);
   for (int lane = 0; lane < LANES; ++lane) {
     const size_t i = map_index(strip, row, u + lane);
-    if (!todo[i]) continue;
-    block.x = min(block.x, (int)bounds[i].x);
-    block.y = max(block.y, (int)bounds[i].y);
+    const int to_do = u + lane < strip.width && todo[i];
+    tested->first[lane] = to_do ? (int)bounds[i].x : INT_MAX;
+    tested->last[lane] = to_do ? (int)bounds[i].y : -1;
+    block.x = min(block.x, tested->first[lane]);
+    block.y = max(block.y, tested->last[lane]);
   }
   return block;
 }

@@ -187,8 +187,9 @@ __kernel void density_score(__global const float* band, __global const float* so
   if (u >= strip.width) return;
   const int v = strip.row_begin + row;
 
-  const int2 tested = block_bounds(todo, bounds, strip, row, u);
-  const int first = tested.x, last = tested.y;
+  LaneBounds tested;
+  const int2 block = block_bounds(todo, bounds, strip, row, u, &tested);
+  const int first = block.x, last = block.y;
   if (last < 0) return;
 
   vfloat own[3];
@@ -197,6 +198,7 @@ __kernel void density_score(__global const float* band, __global const float* so
   for (int c = 0; c < 3; ++c) own[c] = VLOAD(here + c * p.stride);
   const float inverse_h = 1.0f / bandwidth;
 
+  __global float* column = scores + score_index(strip, hypotheses, row, u);
   for (int i = first; i <= last; ++i) {
     __global const Way* here_ways = WAYS_OF(ways, i, p.num_views);
     const float h = hypotheses.min + i * hypotheses.step;
@@ -212,9 +214,10 @@ __kernel void density_score(__global const float* band, __global const float* so
     }
     const vfloat density =
         mean_shift_density(staged, source, p, here_ways, u, v, h, own, inverse_h, sums);
-    store_scores(scores + score_index(strip, hypotheses, row, u), hypotheses, i, strip.width - u,
+    store_scores(column, hypotheses, &tested, i,
                  score_of(density, count, min_views, floor_views));
   }
+  repeat_ends_of_lanes(column, hypotheses, &tested);
 }
 
 #if STAGE && !CUBIC && LANES > 1 && SHIFT_ALIKE
@@ -234,11 +237,12 @@ __kernel void density_score_packed(
   __global const int* columns = rows + LANES;
 
   int first = hypotheses.count, last = -1;
+  ushort2 tested[LANES];
   float own[3][LANES];
   for (int lane = 0; lane < LANES; ++lane) {
-    const ushort2 tested = bounds[map_index(strip, rows[lane], columns[lane])];
-    first = min(first, (int)tested.x);
-    last = max(last, (int)tested.y);
+    tested[lane] = bounds[map_index(strip, rows[lane], columns[lane])];
+    first = min(first, (int)tested[lane].x);
+    last = max(last, (int)tested[lane].y);
     __global const float* here =
         band_row(band, p, strip.ref, strip.row_begin + rows[lane]) + columns[lane];
     for (int c = 0; c < 3; ++c) own[c][lane] = here[c * p.stride];
@@ -301,7 +305,11 @@ __kernel void density_score_packed(
     float score[LANES];
     VSTORE(score_of(density, count, min_views, floor_views), score);
     for (int lane = 0; lane < LANES; ++lane)
-      scores[score_index(strip, hypotheses, rows[lane], columns[lane]) + i] = score[lane];
+      if (i >= tested[lane].x && i <= tested[lane].y)
+        scores[score_index(strip, hypotheses, rows[lane], columns[lane]) + i] = score[lane];
   }
+  for (int lane = 0; lane < LANES; ++lane)
+    repeat_ends(scores + score_index(strip, hypotheses, rows[lane], columns[lane]), hypotheses,
+                tested[lane].x, tested[lane].y);
 }
 #endif

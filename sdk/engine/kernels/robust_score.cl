@@ -108,10 +108,11 @@ __kernel void robust_score(__global const float* band, const BandParams p, const
   const int v = strip.row_begin + row;
 
   int first = INT_MAX, last = -1;
+  LaneBounds tested[UNITS];
   for (int j = 0; j < UNITS && u + j * LANES < strip.width; ++j) {
-    const int2 tested = block_bounds(todo, bounds, strip, row, u + j * LANES);
-    first = min(first, tested.x);
-    last = max(last, tested.y);
+    const int2 unit = block_bounds(todo, bounds, strip, row, u + j * LANES, &tested[j]);
+    first = min(first, unit.x);
+    last = max(last, unit.y);
   }
   if (last < 0) return;
 
@@ -169,10 +170,13 @@ __kernel void robust_score(__global const float* band, const BandParams p, const
       vfloat score = score_of(sums[0][j], counts[0][j], min_views, floor_views);
       for (int part = 1; part < PARTS; ++part)
         score = max(score, score_of(sums[part][j], counts[part][j], min_views, floor_views));
-      store_scores(scores + score_index(strip, hypotheses, row, u + j * LANES), hypotheses, i,
-                   strip.width - u - j * LANES, score);
+      store_scores(scores + score_index(strip, hypotheses, row, u + j * LANES), hypotheses,
+                   &tested[j], i, score);
     }
   }
+  for (int j = 0; j < UNITS && u + j * LANES < strip.width; ++j)
+    repeat_ends_of_lanes(scores + score_index(strip, hypotheses, row, u + j * LANES), hypotheses,
+                         &tested[j]);
 }
 
 #else
@@ -189,15 +193,17 @@ __kernel void robust_score(__global const float* taps, const BandParams p, const
   for (int j = 0; j < UNITS; ++j) {
     const int u = (get_global_id(0) * UNITS + j) * LANES;
     if (u >= strip.width) return;
-    const int2 tested = block_bounds(todo, bounds, strip, row, u);
-    if (tested.y < 0) continue;
+    LaneBounds tested;
+    const int2 block = block_bounds(todo, bounds, strip, row, u, &tested);
+    if (block.y < 0) continue;
 
     vfloat own[CHANNELS];
     __global const float* here = band_row(own_band, own_p, own_view, v) + u;
     UNROLL
     for (int c = 0; c < CHANNELS; ++c) own[c] = VLOAD(here + c * p.stride);
     const float inverse_h = 1.0f / bandwidth;
-    for (int i = tested.x; i <= tested.y; ++i) {
+    __global float* column = scores + score_index(strip, hypotheses, row, u);
+    for (int i = block.x; i <= block.y; ++i) {
       const float h = hypotheses.min + i * hypotheses.step;
       vfloat sums[PARTS], counts[PARTS];
       for (int part = 0; part < PARTS; ++part) sums[part] = counts[part] = (vfloat)(0.0f);
@@ -230,9 +236,9 @@ __kernel void robust_score(__global const float* taps, const BandParams p, const
       vfloat score = score_of(sums[0], counts[0], min_views, floor_views);
       for (int part = 1; part < PARTS; ++part)
         score = max(score, score_of(sums[part], counts[part], min_views, floor_views));
-      store_scores(scores + score_index(strip, hypotheses, row, u), hypotheses, i, strip.width - u,
-                   score);
+      store_scores(column, hypotheses, &tested, i, score);
     }
+    repeat_ends_of_lanes(column, hypotheses, &tested);
   }
 }
 

@@ -69,6 +69,7 @@ __kernel void score_support(__global const float* band, const BandParams p, cons
     }
     VSTORE(total * scale, out + i);
   }
+  repeat_ends(out, hypotheses, tested.x, tested.y);
 }
 
 // The scores of hypotheses i, i + 1, … of a pixel; beyond the ends the last ones are repeated.
@@ -119,4 +120,5 @@ __kernel void slanted_support(__global const float* band, const BandParams p,
     }
     VSTORE(total * scale, out + i);
   }
+  repeat_ends(out, hypotheses, tested.x, tested.y);
 }

@@ -6,7 +6,7 @@
 
 namespace gigaray::reference {
 
-/// Scores of a strip: [row][hypothesis][u]; -1 where not tested.
+/// Scores of a strip: [row][hypothesis][u]; -1 where too few views see the point.
 struct Scores {
   RowRange rows;
   int count = 0;
@@ -21,6 +21,12 @@ struct Scores {
         data(std::size_t(rows.size()) * count * width, -1) {}
   float& at(int u, int v, int i) {
     return data[(std::size_t(v - rows.begin) * count + i) * width + u];
+  }
+  /// Hypotheses that a pixel does not want tested get the score of the first or the last one that
+  /// is: its neighbours may ask for them.
+  void repeat_ends(int u, int v, HypothesisBounds tested) {
+    for (int i = 0; i < tested.first; ++i) at(u, v, i) = at(u, v, tested.first);
+    for (int i = tested.last + 1; i < count; ++i) at(u, v, i) = at(u, v, tested.last);
   }
   float at(int u, int v, int i) const { return const_cast<Scores*>(this)->at(u, v, i); }
 };

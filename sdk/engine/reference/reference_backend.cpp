@@ -177,6 +177,7 @@ class ReferenceBackend : public Backend {
         const auto [first, last] = bounds.row(v)[u];
         for (int i = first; i <= last; ++i)
           raw_scores_.at(u, v, i) = score_of(Ray{double(u), double(v), setup_.hypotheses.value(i)});
+        raw_scores_.repeat_ends(u, v, bounds.row(v)[u]);
       }
     winner_takes(raw_scores_);
   }

@@ -32,6 +32,7 @@ Scores support(const Band& band, int ref, RowRange rows, const SupportOptions& o
         }
       }
       for (int i = first; i <= last; ++i) supported.at(u, v, i) = sums[i] / weights;
+      supported.repeat_ends(u, v, bounds.row(v)[u]);
     }
   }
   return supported;

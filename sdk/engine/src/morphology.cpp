@@ -8,6 +8,9 @@
 namespace gigaray {
 namespace {
 
+std::uint8_t least(std::uint8_t a, std::uint8_t b) { return std::min(a, b); }
+std::uint8_t most(std::uint8_t a, std::uint8_t b) { return std::max(a, b); }
+
 /// Minimum or maximum over a pixel and its four neighbours; outside the picture nothing counts.
 template <class Pick>
 StripMap<std::uint8_t> over_cross(const StripMap<std::uint8_t>& in, RowRange rows, int height,
@@ -28,10 +31,14 @@ StripMap<std::uint8_t> over_cross(const StripMap<std::uint8_t>& in, RowRange row
 
 }  // namespace
 
-StripMap<std::uint8_t> open_mask(const StripMap<std::uint8_t>& mask, RowRange rows, int height) {
-  const auto least = [](std::uint8_t a, std::uint8_t b) { return std::min(a, b); };
-  const auto most = [](std::uint8_t a, std::uint8_t b) { return std::max(a, b); };
-  return over_cross(over_cross(mask, grown(rows, 1, height), height, least), rows, height, most);
+StripMap<std::uint8_t> open_mask(const StripMap<std::uint8_t>& mask, RowRange rows, int height,
+                                 int radius) {
+  StripMap<std::uint8_t> open = mask;
+  for (int i = 2 * radius - 1; i >= radius; --i)
+    open = over_cross(open, grown(rows, i, height), height, least);
+  for (int i = radius - 1; i >= 0; --i)
+    open = over_cross(open, grown(rows, i, height), height, most);
+  return open;
 }
 
 void dilate(int radius, int height, StripMap<std::uint8_t>& todo,

@@ -6,9 +6,11 @@
 
 namespace gigaray {
 
-/// Opening of a mask by a cross of 3 px: removes isolated pixels and keeps lines of two. mask: rows
-/// of `rows` and two more on both sides where the picture has them. Returns the rows of `rows`.
-StripMap<std::uint8_t> open_mask(const StripMap<std::uint8_t>& mask, RowRange rows, int height);
+/// Opening of a mask by a diamond that reaches `radius` px. 1: a cross of 3 px, which removes
+/// isolated pixels and keeps lines of two. mask: rows of `rows` and 2 radius more on both sides
+/// where the picture has them. Returns the rows of `rows`.
+StripMap<std::uint8_t> open_mask(const StripMap<std::uint8_t>& mask, RowRange rows, int height,
+                                 int radius = 1);
 
 /// Pixels within `radius` (a square) of a pixel to do, with bounds that cover those of all such
 /// pixels: where scores are needed so that support finds them.

@@ -310,6 +310,7 @@ bool Pipeline::find_todo(int active_idx, ViewMaps& maps) {
       maps.bounds.row(v)[u] = level_ > 0 ? bounds_of(search[u], hypotheses_) : full;
     }
   }
+  if (cracked) bound_thin_holes(maps.todo, maps.disparity, hypotheses_, maps.bounds);
   // Specks would cost whole windows of scores each.
   if (cracked && !is_last_level()) maps.todo = open_mask(maps.todo, all, height);
   return any_set(maps.todo, all);

@@ -95,6 +95,9 @@ void prepare_unstructured(Prepared& run, const RunControl& control, bool read_pi
       run.options.views.empty() ? all_views(run.light_field.num_views()) : run.options.views,
       control);
   run.options.score.cubic = false;
+  // Surfaces come nearer and turn from view to view: what is carried over has wider cracks.
+  constexpr int kCrackWidth = 4;
+  if (run.options.propagation.crack_width > 0) run.options.propagation.crack_width = kCrackWidth;
   const int count = run.options.hypotheses > 0 ? run.options.hypotheses
                                                : count_hypotheses(run.light_field, run.options);
   run.hypotheses = {0, 1, count};

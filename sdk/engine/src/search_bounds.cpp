@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "morphology.h"
+
 namespace gigaray {
 namespace {
 
@@ -16,6 +18,15 @@ struct Interval {
     *this = known() ? Interval{std::min(low, other.low), std::max(high, other.high)} : other;
   }
 };
+
+HypothesisBounds hypotheses_between(Interval interval, int margin, const HypothesisRange& range) {
+  const auto index = [&](double h) {
+    return std::clamp((h - range.min) / range.step(), 0.0, double(range.count - 1));
+  };
+  const int first = std::max(int(std::floor(index(interval.low))) - margin, 0);
+  const int last = std::min(int(std::ceil(index(interval.high))) + margin, range.count - 1);
+  return {std::uint16_t(first), std::uint16_t(last)};
+}
 
 }  // namespace
 
@@ -63,12 +74,24 @@ void coarsen_bounds(std::span<const PackedEstimate> estimates, std::span<const S
 }
 
 HypothesisBounds bounds_of(const Search& search, const HypothesisRange& range) {
-  const auto index = [&](double h) {
-    return std::clamp((h - range.min) / range.step(), 0.0, double(range.count - 1));
-  };
-  const int first = std::max(int(std::floor(index(search.low))) - 1, 0);
-  const int last = std::min(int(std::ceil(index(search.high))) + 1, range.count - 1);
-  return {std::uint16_t(first), std::uint16_t(last)};
+  return hypotheses_between({search.low, search.high}, 1, range);
+}
+
+void bound_thin_holes(const StripMap<std::uint8_t>& todo, const StripMap<float>& estimates,
+                      const HypothesisRange& range, StripMap<HypothesisBounds>& bounds) {
+  constexpr int kThin = 3, kAround = 2 * kThin;  // px
+  constexpr int kMargin = 8;                     // hypotheses
+  const int width = todo.width(), height = todo.rows().size();
+  const StripMap<std::uint8_t> wide = open_mask(todo, todo.rows(), height, kThin);
+  for (int v = 0; v < height; ++v)
+    for (int u = 0; u < width; ++u) {
+      if (!todo.row(v)[u] || wide.row(v)[u]) continue;
+      Interval around;
+      for (int y = std::max(v - kAround, 0); y <= std::min(v + kAround, height - 1); ++y)
+        for (int x = std::max(u - kAround, 0); x <= std::min(u + kAround, width - 1); ++x)
+          around.join({estimates.row(y)[x], estimates.row(y)[x]});
+      if (around.known()) bounds.row(v)[u] = hypotheses_between(around, kMargin, range);
+    }
 }
 
 }  // namespace gigaray

@@ -26,6 +26,13 @@ struct Search {
 void coarsen_bounds(std::span<const PackedEstimate> estimates, std::span<const Search> search,
                     int width, const HypothesisRange& range, std::span<Search> coarse);
 
+/// Holes thinner than 7 px between estimates carried over from other views show, as a rule, one of
+/// the surfaces around them. Their pixels get narrower bounds: from the least to the greatest
+/// estimate around, with a margin in which a peak of the score and what lies beside it find room.
+///   todo, estimates  of a whole view; an estimate is NaN where there is none
+void bound_thin_holes(const StripMap<std::uint8_t>& todo, const StripMap<float>& estimates,
+                      const HypothesisRange& range, StripMap<HypothesisBounds>& bounds);
+
 /// The hypotheses between the bounds of a search, one more on both sides.
 HypothesisBounds bounds_of(const Search& search, const HypothesisRange& range);
 
