@@ -60,6 +60,13 @@ void InputOptions::add_to(CLI::App& app) {
          "One lenslet picture: its views across and down, as in 14 or 15x13 (default: 14 for "
          "…_eslf)")
       ->type_name("N");
+  app.add_option("--images", open.images,
+                 "Folder of the photographs, when they don't lie with the model of their cameras")
+      ->type_name("DIR");
+  app.add_option("--masks", open.masks,
+                 "Photographs with cameras: folder of masks, black is left out; NAME.png for the "
+                 "picture NAME")
+      ->type_name("DIR");
 }
 
 }  // namespace gigaray::cli

@@ -15,15 +15,6 @@ bool is_there(const fs::path& path) {
   return fs::exists(path, ignored);
 }
 
-bool is_colmap_model(const fs::path& folder) {
-  return is_there(folder / "cameras.bin") || is_there(folder / "cameras.txt");
-}
-
-bool is_colmap(const fs::path& input) {
-  return is_colmap_model(input) || is_colmap_model(input / "sparse") ||
-         is_colmap_model(input / "sparse" / "0") || is_colmap_model(input / "dense" / "sparse");
-}
-
 bool is_transforms_json(const fs::path& input) {
   return input.filename() == "transforms.json" || is_there(input / "transforms.json");
 }
@@ -53,7 +44,6 @@ class LaterFormat : public Reader {
 
 std::vector<std::unique_ptr<const Reader>> later_formats() {
   std::vector<std::unique_ptr<const Reader>> formats;
-  formats.push_back(std::make_unique<LaterFormat>("a COLMAP workspace", is_colmap));
   formats.push_back(std::make_unique<LaterFormat>("transforms.json", is_transforms_json));
   formats.push_back(std::make_unique<LaterFormat>("LLFF poses_bounds.npy", is_llff));
   return formats;

@@ -13,6 +13,7 @@ std::unique_ptr<const Reader> hci_reader();
 std::unique_ptr<const Reader> hdf5_reader();
 std::unique_ptr<const Reader> stanford_reader();
 std::unique_ptr<const Reader> lenslet_reader();
+std::unique_ptr<const Reader> colmap_reader();
 std::unique_ptr<const Reader> named_grid_reader();
 std::unique_ptr<const Reader> image_sequence_reader();
 

@@ -3,6 +3,7 @@
 #include "gigaray/adapters/registry.h"
 
 #include <system_error>
+#include <utility>
 
 #include "picture_files.h"
 #include "readers.h"
@@ -19,6 +20,7 @@ std::vector<std::unique_ptr<const Reader>> all_readers() {
   all.push_back(hdf5_reader());
   all.push_back(stanford_reader());
   all.push_back(lenslet_reader());
+  all.push_back(colmap_reader());
   for (auto& reader : later_formats()) all.push_back(std::move(reader));
   all.push_back(named_grid_reader());
   all.push_back(image_sequence_reader());
@@ -69,6 +71,13 @@ LightField open_light_field(const fs::path& input, const OpenOptions& options) {
   const Reader& reader = reader_for(input, options);
   LightField light_field = reader.open(input, options);
   light_field.format = reader.name();
+  if (light_field.kind != LightFieldKind::kUnstructured)
+    for (const auto& [option, folder] :
+         {std::pair("--images", options.images), std::pair("--masks", options.masks)})
+      if (!folder.empty())
+        throw Error(ErrorCode::kInvalidArgument,
+                    std::string(option) + ": goes with photographs whose cameras are known, not " +
+                        "with a light field of the format " + light_field.format);
   try {
     check(light_field);
   } catch (const Error& problem) {

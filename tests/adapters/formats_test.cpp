@@ -261,7 +261,6 @@ TEST_F(Registry, FormatsOfLaterVersionsAreNamed) {
     expect_error(ErrorCode::kBadInput, word, [&] { open_light_field(input); });
     expect_error(ErrorCode::kBadInput, "not readable yet", [&] { open_light_field(input); });
   };
-  expect_named("sparse/0/cameras.bin", "COLMAP");
   expect_named("transforms.json", "transforms.json");
   expect_named("poses_bounds.npy", "LLFF");
 }

@@ -36,6 +36,11 @@ struct OpenOptions {
   Travel row_direction = Travel::kAuto;
   /// Only for a lenslet picture.
   LensletGrid lenslet = {};
+  /// Folder of the pictures, when they are not where a model of their cameras lies.
+  std::filesystem::path images = {};
+  /// Folder of masks of pictures with known cameras, black where nothing is to be looked at:
+  /// NAME.png for the picture NAME, or the name with .png as its extension. Empty: none.
+  std::filesystem::path masks = {};
 };
 
 /// Recognises what `input` is (registry.h) and opens it. Reads the headers of the pictures, not

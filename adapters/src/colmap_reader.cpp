@@ -1,0 +1,258 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Gigaray authors
+// A COLMAP workspace, https://colmap.github.io/format.html: photographs and the sparse model of
+// their cameras. Its axes are those of gigaray::Camera, its pixels are half a pixel off (lens.h).
+#include <algorithm>
+#include <system_error>
+#include <unordered_map>
+
+#include "camera_position.h"
+#include "gigaray/adapters/colmap_model.h"
+#include "mask_folder.h"
+#include "picture_files.h"
+#include "posed_pictures.h"
+#include "readers.h"
+#include "view_names.h"
+
+namespace gigaray {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kName = "COLMAP workspace";
+
+bool is_there(const fs::path& path) {
+  std::error_code ignored;
+  return fs::exists(path, ignored);
+}
+
+/// "0", "1", … "10": by number.
+bool by_number(const fs::path& a, const fs::path& b) {
+  const std::string x = a.filename().string(), y = b.filename().string();
+  return x.size() != y.size() ? x.size() < y.size() : x < y;
+}
+
+std::vector<fs::path> models_below(const fs::path& folder) {
+  std::error_code error;
+  std::vector<fs::path> models;
+  for (auto entry = fs::directory_iterator(folder, error);
+       !error && entry != fs::directory_iterator(); entry.increment(error))
+    if (is_colmap_model(entry->path())) models.push_back(entry->path());
+  std::sort(models.begin(), models.end(), by_number);
+  return models;
+}
+
+/// With parts of a model missing: read_colmap_model() says which.
+bool is_part_of_model(const fs::path& folder) {
+  return is_there(folder / "cameras.bin") || is_there(folder / "cameras.txt");
+}
+
+/// Folders of the models that an input may mean.
+std::vector<fs::path> models_of(const fs::path& input) {
+  if (is_colmap_model(input)) return {input};
+  for (const fs::path& folder : {input / "sparse", input / "dense" / "sparse"}) {
+    if (is_colmap_model(folder)) return {folder};
+    std::vector<fs::path> models = models_below(folder);
+    if (!models.empty()) return models;
+  }
+  std::vector<fs::path> models = models_below(input);  // INPUT is the folder "sparse"
+  if (!models.empty()) return models;
+  for (const fs::path& folder : {input, input / "sparse", input / "sparse" / "0"})
+    if (is_part_of_model(folder)) return {folder};
+  return {};
+}
+
+struct Found {
+  fs::path folder;
+  ColmapModel model;
+};
+
+/// The model with the most images.
+Found largest_model(const std::vector<fs::path>& folders, std::vector<std::string>& notes) {
+  if (folders.size() == 1) return {folders[0], read_colmap_model(folders[0])};
+  Found best;
+  std::string sizes;
+  std::optional<Error> problem;
+  for (const fs::path& folder : folders) try {
+      ColmapModel model = read_colmap_model(folder);
+      sizes += (sizes.empty() ? "" : ", ") + folder.filename().string() + " has " +
+               std::to_string(model.images.size());
+      if (model.images.size() > best.model.images.size()) best = {folder, std::move(model)};
+    } catch (const Error& error) {
+      problem = error;
+      notes.push_back(std::string("left out: ") + error.what());
+    }
+  if (best.model.images.empty()) throw *problem;
+  notes.push_back(std::to_string(folders.size()) + " models (" + sizes +
+                  " images): the largest is taken; give the folder of another one as INPUT");
+  return best;
+}
+
+std::size_t count_there(const fs::path& folder, const std::vector<std::string>& names) {
+  return std::size_t(std::count_if(names.begin(), names.end(), [&](const std::string& name) {
+    std::error_code ignored;
+    return fs::is_regular_file(folder / name, ignored);
+  }));
+}
+
+/// The folder that the names of the images are relative to.
+fs::path folder_of_pictures(const fs::path& model, const std::vector<std::string>& names,
+                            const fs::path& stated) {
+  std::vector<fs::path> folders;
+  if (!stated.empty()) {
+    folders = {stated};
+  } else {
+    // WORKSPACE/sparse/0 is three deep at most.
+    fs::path above = fs::absolute(model).lexically_normal();
+    if (!above.has_filename()) above = above.parent_path();
+    for (int i = 0; i < 3; ++i, above = above.parent_path()) {
+      folders.push_back(above / "images");
+      folders.push_back(above);
+    }
+  }
+  fs::path best = folders.front();
+  std::size_t most = 0;
+  for (const fs::path& folder : folders)
+    if (const std::size_t count = count_there(folder, names); count > most) {
+      most = count;
+      best = folder;
+    }
+  if (most == names.size()) return best;
+  const std::string all = std::to_string(names.size());
+  if (most == 0)
+    throw Error(ErrorCode::kBadInput, model.string() + ": none of the " + all +
+                                          " pictures that the model names was found" +
+                                          (stated.empty() ? "" : " in " + stated.string()) +
+                                          " (the first is " + names.front() +
+                                          "); name their folder with --images");
+  const auto first = std::find_if(names.begin(), names.end(), [&](const std::string& name) {
+    return count_there(best, {name}) == 0;
+  });
+  throw Error(ErrorCode::kBadInput,
+              (best / *first).string() + ": is missing, one of " +
+                  std::to_string(names.size() - most) + " of the " + all +
+                  " pictures that the model names; put them there or name their folder with "
+                  "--images");
+}
+
+/// Depths of the sparse points, per image.
+class SparseDepths {
+ public:
+  explicit SparseDepths(const ColmapModel& model) : model_(model) {
+    std::vector<double> errors;
+    for (const ColmapModel::Point& point : model.points)
+      if (point.error >= 0) errors.push_back(point.error);
+    if (!errors.empty()) {
+      std::nth_element(errors.begin(), errors.begin() + errors.size() / 2, errors.end());
+      constexpr double kLarge = 3;  // times the median
+      large_error_ = kLarge * errors[errors.size() / 2];
+    }
+    for (const ColmapModel::Point& point : model.points)
+      for (const ColmapModel::Sight& sight : point.track)
+        seen_by_[sight.image_id].push_back(&point);
+  }
+
+  /// Of what the image sees. Without enough points of its own: of all that lie before its camera
+  /// and inside its picture.
+  std::optional<InverseDepthRange> range(const ColmapModel::Image& image, const Lens& lens) const {
+    constexpr std::size_t kEnough = 20;
+    std::vector<double> good, all;
+    if (const auto seen = seen_by_.find(image.id); seen != seen_by_.end())
+      for (const ColmapModel::Point* point : seen->second) {
+        const double z = in_camera(image, *point).z();
+        if (!(z > 0)) continue;
+        all.push_back(z);
+        if (is_good(*point)) good.push_back(z);
+      }
+    if (good.size() >= kEnough) return range_of_depths(std::move(good));
+    if (const auto range = range_of_depths(std::move(all))) return range;
+
+    std::vector<double> inside;
+    const LensMap map(lens);
+    for (const ColmapModel::Point& point : model_.points) {
+      const Eigen::Vector3d at = in_camera(image, point);
+      if (!(at.z() > 0)) continue;
+      const auto pixel = map.distort(at.head<2>() / at.z());
+      if (pixel && (pixel->array() >= 0).all() && pixel->x() < lens.width &&
+          pixel->y() < lens.height)
+        inside.push_back(at.z());
+    }
+    return range_of_depths(std::move(inside));
+  }
+
+ private:
+  static Eigen::Vector3d in_camera(const ColmapModel::Image& image,
+                                   const ColmapModel::Point& point) {
+    return image.rotation * point.position + image.translation;
+  }
+  bool is_good(const ColmapModel::Point& point) const {
+    constexpr std::size_t kLeastSights = 3;  // two rays may meet anywhere
+    return point.track.size() >= kLeastSights && point.error <= large_error_;
+  }
+
+  const ColmapModel& model_;
+  double large_error_ = 0;
+  std::unordered_map<std::uint32_t, std::vector<const ColmapModel::Point*>> seen_by_;
+};
+
+LightField open_model(Found found, const OpenOptions& options, std::vector<std::string> notes) {
+  std::vector<ColmapModel::Image>& images = found.model.images;
+  if (images.size() < 2)
+    throw Error(ErrorCode::kBadInput,
+                found.folder.string() +
+                    ": only one image is registered, depth needs two or more; take pictures that "
+                    "overlap more");
+  std::sort(images.begin(), images.end(),
+            [](const auto& a, const auto& b) { return a.name < b.name; });
+  std::vector<std::string> names;
+  for (const ColmapModel::Image& image : images) names.push_back(image.name);
+  const fs::path folder = folder_of_pictures(found.folder, names, options.images);
+  const std::vector<std::string> views = view_names(names);
+
+  const SparseDepths depths(found.model);
+  std::vector<PosedPicture> pictures;
+  for (std::size_t i = 0; i < images.size(); ++i) {
+    PosedPicture picture;
+    picture.file = folder / names[i];
+    picture.name = views[i];
+    picture.lens = found.model.cameras.at(images[i].camera_id);
+    picture.rotation = images[i].rotation.toRotationMatrix();
+    picture.translation = images[i].translation;
+    picture.inverse_depth = depths.range(images[i], picture.lens);
+    pictures.push_back(std::move(picture));
+  }
+  if (!options.masks.empty()) attach_masks(pictures, names, options.masks, notes);
+  for (const char* part : {"rigs.bin", "rigs.txt", "frames.bin", "frames.txt"})
+    if (is_there(found.folder / part)) {
+      notes.push_back("rigs and frames of the model are ignored; its images state every pose");
+      break;
+    }
+  LightField light_field = posed_light_field(std::move(pictures), kName);
+  light_field.notes.insert(light_field.notes.begin(), notes.begin(), notes.end());
+  return light_field;
+}
+
+class ColmapReader : public Reader {
+ public:
+  std::string name() const override { return kName; }
+
+  ProbeResult probe(const fs::path& input) const override {
+    constexpr int kWhole = 80, kPart = 5;  // numbered pictures are more than a part
+    const std::vector<fs::path> models = models_of(input);
+    if (models.empty()) return {};
+    return {is_colmap_model(models.front()) ? kWhole : kPart, ""};
+  }
+
+  LightField open(const fs::path& input, const OpenOptions& options) const override {
+    refuse_direction(options, "the COLMAP model states");
+    std::vector<std::string> notes;
+    Found found = largest_model(models_of(input), notes);
+    return open_model(std::move(found), options, std::move(notes));
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<const Reader> colmap_reader() { return std::make_unique<ColmapReader>(); }
+
+}  // namespace gigaray
