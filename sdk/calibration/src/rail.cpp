@@ -14,6 +14,15 @@ Eigen::Vector2d RadialLens::project(const Eigen::Vector2d& direction) const {
   return focal * (1 + r2 * (k1 + r2 * k2)) * direction + centre;
 }
 
+bool RadialLens::sees(const Eigen::Vector2d& direction) const {
+  // The slope 1 + 3 k1 r² + 5 k2 r⁴ stays positive from the axis to here: at both ends, and at its
+  // lowest place if that lies between.
+  const double r2 = direction.squaredNorm();
+  const auto slope = [&](double x) { return 1 + x * (3 * k1 + x * 5 * k2); };
+  const double lowest = k2 > 0 ? -0.3 * k1 / k2 : 0;
+  return slope(r2) > 0 && (lowest <= 0 || lowest >= r2 || slope(lowest) > 0);
+}
+
 Eigen::Vector2d RadialLens::direction(const Eigen::Vector2d& pixel) const {
   const Eigen::Vector2d seen = (pixel - centre) / focal;
   const double target = seen.norm();

@@ -24,6 +24,8 @@ struct RadialLens {
   double k1 = 0, k2 = 0;
 
   Eigen::Vector2d project(const Eigen::Vector2d& direction) const;
+  /// Is the direction within the radius up to which the picture grows? Beyond, it would fold back.
+  bool sees(const Eigen::Vector2d& direction) const;
   /// The inverse of project(), as near as iterations come to it.
   Eigen::Vector2d direction(const Eigen::Vector2d& pixel) const;
 };
