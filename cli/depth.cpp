@@ -16,6 +16,7 @@
 #include "gigaray/adapters/depth_folder.h"
 #include "gigaray/metric_depth.h"
 #include "gigaray/reconstruct.h"
+#include "photographs.h"
 #include "view_list.h"
 
 namespace gigaray::cli {
@@ -66,7 +67,7 @@ double share_of_estimates(const ViewDepth& depth) {
 
 ordered_json options_json(const Reconstruction& result) {
   const DepthOptions& o = result.options();
-  const HypothesisRange& h = result.hypotheses();
+  const HypothesisRange h = result.hypotheses();
   return {{"preset", o.preset},
           {"disparity_range", {h.min, h.max}},
           {"hypotheses", h.count},
@@ -105,14 +106,34 @@ ordered_json light_field_json(const LightField& light_field) {
 }
 
 /// Unit of depth.pfm; null when there is none.
-ordered_json depth_unit(const RigGeometry& rig) {
-  if (!has_metric_depth(rig)) return nullptr;
-  return rig.unit.empty() ? "unknown" : rig.unit;
+ordered_json depth_unit(const LightField& light_field) {
+  if (!has_metric_depth(light_field)) return nullptr;
+  return light_field.rig.unit.empty() ? "unknown" : light_field.rig.unit;
+}
+
+const char* disparity_unit(const LightField& light_field) {
+  return light_field.kind == LightFieldKind::kUnstructured
+             ? "inverse depth, 1 / depth_unit; larger is nearer"
+             : "level-0 px per view step; positive is nearer";
+}
+
+/// In the convention of docs/conventions.md.
+ordered_json camera_json(const Camera& camera) {
+  ordered_json rotation = ordered_json::array();
+  for (int row = 0; row < 3; ++row)
+    rotation.push_back({camera.rotation(row, 0), camera.rotation(row, 1), camera.rotation(row, 2)});
+  return {{"width", camera.width},
+          {"height", camera.height},
+          {"focal_px", {camera.focal_u, camera.focal_v}},
+          {"principal_point_px", {camera.centre_u, camera.centre_v}},
+          {"rotation", rotation},
+          {"translation", {camera.translation.x(), camera.translation.y(), camera.translation.z()}},
+          {"inverse_depth", {camera.inverse_depth->min, camera.inverse_depth->max}}};
 }
 
 void run(const Settings& settings, const RunControl& control) {
   const auto begin = std::chrono::steady_clock::now();
-  LightField light_field = settings.run.input.open_light_field();
+  LightField light_field = open_or_find_cameras(settings.run.input, settings.output, control);
   for (const std::string& note : light_field.notes) control.message(note);
   DepthOptions options = settings.run.resolve(light_field, control);
   options.views = parse_views(settings.views, light_field);
@@ -122,8 +143,7 @@ void run(const Settings& settings, const RunControl& control) {
     formats.insert(name == "exr"   ? MapFormat::kExr
                    : name == "npy" ? MapFormat::kNpy
                                    : MapFormat::kPng16);
-  DepthFolder folder(settings.output, formats);
-  folder.set_rig(light_field.rig);
+  DepthFolder folder(settings.output, formats, light_field);
 
   Reconstruction result = reconstruct(light_field, options, settings.run.backend(), control);
 
@@ -148,10 +168,13 @@ void run(const Settings& settings, const RunControl& control) {
       drop_unsure(float(settings.min_confidence), depth);
       kept += share_of_estimates(depth) / double(active.size());
     }
-    folder.write_view(view.name, depth.disparity, depth.confidence, active[i] == top);
     all.add(depth);
     if (active[i] == top) of_centre.add(depth);
+    folder.write_view(active[i], std::move(depth.disparity), std::move(depth.confidence),
+                      active[i] == top);
     views.push_back({{"name", view.name}, {"s", view.s}, {"t", view.t}});
+    if (!result.cameras().empty())
+      views.back()["camera"] = camera_json(result.cameras()[active[i]]);
   }
 
   const double seconds =
@@ -162,8 +185,8 @@ void run(const Settings& settings, const RunControl& control) {
                     {"input", std::filesystem::absolute(settings.run.input.input).string()},
                     {"light_field", light_field_json(light_field)},
                     {"options", options_json(result)},
-                    {"unit", "level-0 px per view step; positive is nearer"},
-                    {"depth_unit", depth_unit(light_field.rig)},
+                    {"unit", disparity_unit(light_field)},
+                    {"depth_unit", depth_unit(light_field)},
                     {"centre", light_field.views[centre].name},
                     {"top_level_view", light_field.views[top].name},
                     {"views", views},
@@ -194,6 +217,9 @@ Run depth_command(CLI::App& app) {
   app.description("Depth for every view of a light field");
   auto settings = std::make_shared<Settings>();
   settings->run.add_to(app);
+  app.add_flag("--find-cameras", settings->run.input.find_cameras,
+               "Find the cameras of a folder of pictures with COLMAP even if they look like a row "
+               "(default: when they don't)");
   app.add_option("-o,--output", settings->output,
                  "Folder for the result; replaced if it is an "
                  "older result")

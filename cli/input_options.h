@@ -13,6 +13,7 @@ namespace gigaray::cli {
 struct InputOptions {
   std::filesystem::path input;
   OpenOptions open;
+  bool find_cameras = false;  ///< of a folder of pictures, with COLMAP, even if they form a row
 
   void add_to(CLI::App& app);
   LightField open_light_field() const { return gigaray::open_light_field(input, open); }

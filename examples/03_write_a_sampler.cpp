@@ -17,7 +17,8 @@ using gigaray::Ray;
 class VerticalSampler {
  public:
   static constexpr std::string_view kKernelFile = "vertical_sampler.cl";  // its OpenCL twin
-  static constexpr int kViewTableWidth = 1;                               // t
+  static constexpr int kRayTableWidth = 1;                                // t̂ − t
+  static constexpr bool kRaysShiftAlike = true;  // all pixels of a view go the same way
 
   explicit VerticalSampler(const std::vector<gigaray::View>& views) {
     for (const gigaray::View& view : views) t_.push_back(view.t);
@@ -26,7 +27,8 @@ class VerticalSampler {
   std::optional<Ray> locate(int ref, int other, Ray ray) const {
     return Ray{ray.u, ray.v + (t_[ref] - t_[other]) * ray.hypothesis, ray.hypothesis};
   }
-  gigaray::RowRange rows_needed(gigaray::RowRange rows, gigaray::HypothesisRange range,
+  std::vector<int> partners(int) const { return gigaray::all_views(num_views()); }
+  gigaray::RowRange rows_needed(int, gigaray::RowRange rows, gigaray::HypothesisRange range,
                                 int height) const {
     const auto [low, high] = std::minmax_element(t_.begin(), t_.end());
     const double farthest = std::max(std::abs(range.min), std::abs(range.max));
@@ -37,7 +39,16 @@ class VerticalSampler {
     for (double& t : scaled.t_) t = std::ldexp(t, -level);
     return scaled;
   }
-  std::vector<float> view_table() const { return {t_.begin(), t_.end()}; }
+  VerticalSampler subset(const std::vector<int>& views) const {
+    VerticalSampler some({});
+    for (const int view : views) some.t_.push_back(t_[view]);
+    return some;
+  }
+  std::vector<float> ray_table(int ref) const {
+    std::vector<float> table;
+    for (const double t : t_) table.push_back(float(t_[ref] - t));
+    return table;
+  }
 
  private:
   std::vector<double> t_;
@@ -67,7 +78,7 @@ int main() {
       for (int i = 0; i < range.count; ++i) {
         const Ray ray{30, 40, range.value(i)};
         const Ray there = *sampler.locate(ref, other, ray);
-        const auto rows = sampler.rows_needed({40, 41}, range, scene.height);
+        const auto rows = sampler.rows_needed(ref, {40, 41}, range, scene.height);
         broken += ref == other && !same(there, ray);               // itself
         broken += !same(*sampler.locate(other, ref, there), ray);  // there and back
         broken += !same(there, *grid.locate(ref, other, ray));     // another sampler, same rig

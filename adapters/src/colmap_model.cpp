@@ -42,9 +42,9 @@ void accept(ColmapModel::Image image, const std::string& where, ColmapModel& mod
   const auto bad_image = [&](const std::string& what) {
     bad(where, "image " + in_quotes(image.name) + " " + what);
   };
-  if (image.name.empty()) bad(where, "image " + std::to_string(image.id) + " has no name");
-  // No picture has one, and text files could not hold it.
-  if (std::any_of(image.name.begin(), image.name.end(), [](char c) { return c > 0 && c < ' '; }))
+  if (trimmed(image.name).empty()) bad(where, "image " + std::to_string(image.id) + " has no name");
+  // No picture has one, and the files could not hold it.
+  if (std::any_of(image.name.begin(), image.name.end(), [](unsigned char c) { return c < ' '; }))
     bad_image("has control characters in its name");
   const double length = image.rotation.norm();
   constexpr double kTolerance = 0.01;
@@ -53,9 +53,12 @@ void accept(ColmapModel::Image image, const std::string& where, ColmapModel& mod
   if (std::abs(length - 1) > kTolerance)
     bad_image("has a quaternion of length " + std::to_string(length) + ", a rotation has 1");
   image.rotation.normalize();
-  for (const ColmapModel::Feature& feature : image.features)
+  for (ColmapModel::Feature& feature : image.features) {
     if (!std::isfinite(feature.x) || !std::isfinite(feature.y))
       bad_image("has a point that is not at a finite position");
+    // Text files have negative numbers for none.
+    if (feature.point_id > std::uint64_t(INT64_MAX)) feature.point_id = ColmapModel::kNoPoint;
+  }
   model.images.push_back(std::move(image));
 }
 

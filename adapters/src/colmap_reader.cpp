@@ -7,7 +7,7 @@
 #include <unordered_map>
 
 #include "camera_position.h"
-#include "gigaray/adapters/colmap_model.h"
+#include "colmap_folders.h"
 #include "mask_folder.h"
 #include "picture_files.h"
 #include "posed_pictures.h"
@@ -26,22 +26,6 @@ bool is_there(const fs::path& path) {
   return fs::exists(path, ignored);
 }
 
-/// "0", "1", … "10": by number.
-bool by_number(const fs::path& a, const fs::path& b) {
-  const std::string x = a.filename().string(), y = b.filename().string();
-  return x.size() != y.size() ? x.size() < y.size() : x < y;
-}
-
-std::vector<fs::path> models_below(const fs::path& folder) {
-  std::error_code error;
-  std::vector<fs::path> models;
-  for (auto entry = fs::directory_iterator(folder, error);
-       !error && entry != fs::directory_iterator(); entry.increment(error))
-    if (is_colmap_model(entry->path())) models.push_back(entry->path());
-  std::sort(models.begin(), models.end(), by_number);
-  return models;
-}
-
 /// With parts of a model missing: read_colmap_model() says which.
 bool is_part_of_model(const fs::path& folder) {
   return is_there(folder / "cameras.bin") || is_there(folder / "cameras.txt");
@@ -52,40 +36,14 @@ std::vector<fs::path> models_of(const fs::path& input) {
   if (is_colmap_model(input)) return {input};
   for (const fs::path& folder : {input / "sparse", input / "dense" / "sparse"}) {
     if (is_colmap_model(folder)) return {folder};
-    std::vector<fs::path> models = models_below(folder);
+    std::vector<fs::path> models = colmap_models_below(folder);
     if (!models.empty()) return models;
   }
-  std::vector<fs::path> models = models_below(input);  // INPUT is the folder "sparse"
+  std::vector<fs::path> models = colmap_models_below(input);  // INPUT is the folder "sparse"
   if (!models.empty()) return models;
   for (const fs::path& folder : {input, input / "sparse", input / "sparse" / "0"})
     if (is_part_of_model(folder)) return {folder};
   return {};
-}
-
-struct Found {
-  fs::path folder;
-  ColmapModel model;
-};
-
-/// The model with the most images.
-Found largest_model(const std::vector<fs::path>& folders, std::vector<std::string>& notes) {
-  if (folders.size() == 1) return {folders[0], read_colmap_model(folders[0])};
-  Found best;
-  std::string sizes;
-  std::optional<Error> problem;
-  for (const fs::path& folder : folders) try {
-      ColmapModel model = read_colmap_model(folder);
-      sizes += (sizes.empty() ? "" : ", ") + folder.filename().string() + " has " +
-               std::to_string(model.images.size());
-      if (model.images.size() > best.model.images.size()) best = {folder, std::move(model)};
-    } catch (const Error& error) {
-      problem = error;
-      notes.push_back(std::string("left out: ") + error.what());
-    }
-  if (best.model.images.empty()) throw *problem;
-  notes.push_back(std::to_string(folders.size()) + " models (" + sizes +
-                  " images): the largest is taken; give the folder of another one as INPUT");
-  return best;
 }
 
 std::size_t count_there(const fs::path& folder, const std::vector<std::string>& names) {
@@ -195,7 +153,8 @@ class SparseDepths {
   std::unordered_map<std::uint32_t, std::vector<const ColmapModel::Point*>> seen_by_;
 };
 
-LightField open_model(Found found, const OpenOptions& options, std::vector<std::string> notes) {
+LightField open_model(FoundColmapModel found, const OpenOptions& options,
+                      std::vector<std::string> notes) {
   std::vector<ColmapModel::Image>& images = found.model.images;
   if (images.size() < 2)
     throw Error(ErrorCode::kBadInput,
@@ -246,7 +205,7 @@ class ColmapReader : public Reader {
   LightField open(const fs::path& input, const OpenOptions& options) const override {
     refuse_direction(options, "the COLMAP model states");
     std::vector<std::string> notes;
-    Found found = largest_model(models_of(input), notes);
+    FoundColmapModel found = largest_colmap_model(models_of(input), notes);
     return open_model(std::move(found), options, std::move(notes));
   }
 };

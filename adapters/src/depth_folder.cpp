@@ -2,19 +2,34 @@
 // Copyright (c) 2026 The Gigaray authors
 #include "gigaray/adapters/depth_folder.h"
 
+#include <algorithm>
+
 #include "gigaray/adapters/maps.h"
+#include "gigaray/adapters/pictures.h"
 #include "gigaray/error.h"
 #include "gigaray/metric_depth.h"
 
 namespace gigaray {
+namespace {
+
+/// The upper left part of an image.
+template <class T>
+Image<T> cropped(const Image<T>& image, int width, int height) {
+  if (width == image.width() && height == image.height()) return image;
+  Image<T> part(width, height, image.channels());
+  for (int v = 0; v < height; ++v) std::copy_n(image.row(v), width * image.channels(), part.row(v));
+  return part;
+}
+
+}  // namespace
 
 void DepthFolder::write_maps(const std::filesystem::path& folder, const FloatMap& disparity,
                              const FloatMap& confidence) const {
   write_pfm(folder / "disparity.pfm", disparity);
   write_pfm(folder / "confidence.pfm", confidence);
   write_depth_picture(folder / "depth.png", disparity, pictured_);
-  if (has_metric_depth(rig_))
-    write_pfm(folder / "depth.pfm", depth_from_disparity(disparity, rig_));
+  if (has_metric_depth(light_field_))
+    write_pfm(folder / "depth.pfm", depth_from_disparity(disparity, light_field_));
   if (formats_.contains(MapFormat::kExr)) {
     write_exr(folder / "disparity.exr", disparity);
     write_exr(folder / "confidence.exr", confidence);
@@ -27,14 +42,31 @@ void DepthFolder::write_maps(const std::filesystem::path& folder, const FloatMap
     write_png16(folder / "disparity16.png", disparity, pictured_);
 }
 
-void DepthFolder::write_view(const std::string& name, const FloatMap& disparity,
-                             const FloatMap& confidence, bool is_centre) {
-  const std::filesystem::path folder = folder_.path() / name;
+void DepthFolder::write_picture(const std::filesystem::path& folder, int view_idx) const {
+  Image<std::uint16_t> picture = read_view(light_field_, view_idx);
+  take_mask(picture);
+  const Camera& camera = light_field_.cameras[view_idx];
+  write_png(folder / "picture.png", cropped(picture, camera.width, camera.height),
+            light_field_.pixels->bit_depth());
+}
+
+void DepthFolder::write_view(int view_idx, FloatMap disparity, FloatMap confidence,
+                             bool is_centre) {
+  const std::filesystem::path folder = folder_.path() / light_field_.views[view_idx].name;
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error) throw Error(ErrorCode::kIo, folder.string() + ": " + error.message());
+  const bool unstructured = light_field_.kind == LightFieldKind::kUnstructured;
+  if (unstructured) {
+    const Camera& camera = light_field_.cameras[view_idx];
+    disparity = cropped(disparity, camera.width, camera.height);
+    confidence = cropped(confidence, camera.width, camera.height);
+    write_picture(folder, view_idx);
+  }
   write_maps(folder, disparity, confidence);
-  if (is_centre) write_maps(folder_.path(), disparity, confidence);
+  if (!is_centre) return;
+  write_maps(folder_.path(), disparity, confidence);
+  if (unstructured) write_picture(folder_.path(), view_idx);
 }
 
 void DepthFolder::commit(const std::string& json) {

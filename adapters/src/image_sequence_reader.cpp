@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "camera_position.h"
+#include "gigaray/adapters/photographs.h"
 #include "numbered_names.h"
 #include "picture_files.h"
 #include "positions_file.h"
@@ -156,6 +157,22 @@ class ImageSequenceReader : public Reader {
 };
 
 }  // namespace
+
+std::string why_no_series(const fs::path& folder) {
+  const std::vector<fs::path> pictures = pictures_of(folder);
+  std::vector<PictureSpec> specs;
+  for (const fs::path& picture : pictures)
+    specs.push_back(read_picture_spec(picture, Orientation::kApplied));
+  for (const PictureSpec& spec : specs)
+    if (spec.width != specs.front().width || spec.height != specs.front().height)
+      return folder.string() + ": the pictures have several sizes";
+  try {
+    series_of(folder, pictures);
+  } catch (const Error& problem) {
+    return problem.what();
+  }
+  return {};
+}
 
 std::unique_ptr<const Reader> image_sequence_reader() {
   return std::make_unique<ImageSequenceReader>();

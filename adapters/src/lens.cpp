@@ -289,6 +289,7 @@ std::optional<Vector2d> LensMap::unbend(const Vector2d& seen) const {
     if (!(slope.determinant() > 0) || at.norm() >= limit_) return std::nullopt;
     if (residual.norm() <= kPrecision * (1 + wanted)) return at;
     Vector2d step = slope.inverse() * residual;
+    if (!step.allFinite()) return std::nullopt;
     while ((at - step).norm() >= limit_ && step.norm() > kPrecision) step /= 2;
     at -= step;
   }

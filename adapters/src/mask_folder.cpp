@@ -7,8 +7,6 @@
 #include "gigaray/error.h"
 
 namespace gigaray {
-namespace {
-
 namespace fs = std::filesystem;
 
 fs::path mask_of(const fs::path& folder, const std::string& name) {
@@ -18,8 +16,6 @@ fs::path mask_of(const fs::path& folder, const std::string& name) {
   const fs::path replaced = folder / fs::path(name).replace_extension(".png");
   return fs::is_regular_file(replaced, ignored) ? replaced : fs::path();
 }
-
-}  // namespace
 
 void attach_masks(std::vector<PosedPicture>& pictures, const std::vector<std::string>& names,
                   const fs::path& folder, std::vector<std::string>& notes) {

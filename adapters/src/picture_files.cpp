@@ -28,6 +28,13 @@ vips::VImage open_picture(const fs::path& path) {
                                                        ->set("fail_on", VIPS_FAIL_ON_WARNING));
 }
 
+std::string taken_with(const vips::VImage& image) {
+  std::string text;
+  for (const char* field : {"exif-ifd0-Make", "exif-ifd0-Model", "exif-ifd2-FocalLength"})
+    if (image.get_typeof(field) != 0) text += std::string(image.get_string(field)) + "; ";
+  return text;
+}
+
 PictureSpec spec_of(const vips::VImage& image, Orientation orientation, const fs::path& path) {
   if (image.format() != VIPS_FORMAT_UCHAR && image.format() != VIPS_FORMAT_USHORT)
     bad(path, "has pixels of another type than 8 or 16 bit");
@@ -37,6 +44,7 @@ PictureSpec spec_of(const vips::VImage& image, Orientation orientation, const fs
   spec.is_turned = vips_image_get_orientation(image.get_image()) != 1;
   if (orientation == Orientation::kApplied && vips_image_get_orientation_swap(image.get_image()))
     std::swap(spec.width, spec.height);
+  spec.taken_with = taken_with(image);
   spec.has_alpha = image.has_alpha();
   spec.is_grey = image.bands() < 3;
   spec.bit_depth = image.format() == VIPS_FORMAT_UCHAR ? 8 : 16;

@@ -27,6 +27,8 @@ struct PictureSpec {
   bool is_grey = false;
   bool has_alpha = false;
   bool is_turned = false;  ///< its orientation is not upright
+  /// Maker, model and focal length of the camera as EXIF has them; empty: not stated.
+  std::string taken_with;
 };
 
 /// Has the name an extension of a picture format that light fields come in?

@@ -2,6 +2,8 @@
 // Copyright (c) 2026 The Gigaray authors
 #include "gigaray/adapters/registry.h"
 
+#include "gigaray/adapters/photographs.h"
+
 #include <system_error>
 #include <utility>
 
@@ -61,6 +63,12 @@ const Reader& reader_for(const fs::path& input, const OpenOptions& options) {
 const std::vector<std::unique_ptr<const Reader>>& readers() {
   static const auto all = all_readers();
   return all;
+}
+
+bool is_plain_folder(const fs::path& input, const OpenOptions& options) {
+  std::error_code error;
+  return fs::is_directory(input, error) && options.positions.empty() &&
+         &reader_for(input, options) == readers().back().get();
 }
 
 LightField open_light_field(const fs::path& input, const OpenOptions& options) {

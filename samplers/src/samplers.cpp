@@ -17,6 +17,18 @@ EpiSampler::EpiSampler(const std::vector<View>& views) {
   }
 }
 
+EpiSampler EpiSampler::subset(const std::vector<int>& views) const {
+  EpiSampler some;
+  for (const int view : views) some.s_.push_back(s_[view]);
+  return some;
+}
+
+std::vector<float> EpiSampler::ray_table(int ref) const {
+  std::vector<float> table;
+  for (const double s : s_) table.push_back(float(s_[ref] - s));
+  return table;
+}
+
 EpiSampler EpiSampler::at_level(int level) const {
   EpiSampler scaled = *this;
   for (double& s : scaled.s_) s = std::ldexp(s, -level);
@@ -27,11 +39,11 @@ GridSampler::GridSampler(const std::vector<View>& views) {
   for (const View& view : views) positions_.push_back({view.s, view.t});
 }
 
-RowRange GridSampler::rows_needed(RowRange rows, HypothesisRange range, int height) const {
-  const auto [low, high] =
-      std::minmax_element(positions_.begin(), positions_.end(),
-                          [](const Position& a, const Position& b) { return a.t < b.t; });
-  const double reach = (high->t - low->t) * std::max(std::abs(range.min), std::abs(range.max));
+RowRange GridSampler::rows_needed(int ref, RowRange rows, HypothesisRange range, int height) const {
+  double farthest = 0;
+  for (const Position& p : positions_)
+    farthest = std::max(farthest, std::abs(p.t - positions_[ref].t));
+  const double reach = farthest * std::max(std::abs(range.min), std::abs(range.max));
   return grown(rows, int(std::ceil(std::min(reach, double(height)))), height);
 }
 
@@ -41,9 +53,17 @@ GridSampler GridSampler::at_level(int level) const {
   return scaled;
 }
 
-std::vector<float> GridSampler::view_table() const {
+GridSampler GridSampler::subset(const std::vector<int>& views) const {
+  GridSampler some;
+  for (const int view : views) some.positions_.push_back(positions_[view]);
+  return some;
+}
+
+std::vector<float> GridSampler::ray_table(int ref) const {
+  const Position from = positions_[ref];
   std::vector<float> table;
-  for (const Position& p : positions_) table.insert(table.end(), {float(p.s), float(p.t)});
+  for (const Position& p : positions_)
+    table.insert(table.end(), {float(from.s - p.s), float(from.t - p.t)});
   return table;
 }
 
@@ -54,9 +74,9 @@ AnySampler make_sampler(const LightField& light_field) {
     case LightFieldKind::k4D:
       return GridSampler(light_field.views);
     case LightFieldKind::kUnstructured:
-      break;
+      return UnstructuredSampler(light_field.cameras, light_field.most_partners);
   }
-  throw Error(ErrorCode::kBadInput, "unstructured light fields are not supported by this version");
+  GIGARAY_CHECK(false);
 }
 
 }  // namespace gigaray

@@ -185,6 +185,22 @@ TEST(Lens, NothingIsSeenBeyondWhereTheModelFoldsBack) {
   EXPECT_FALSE(undistort(one, {std::nan(""), 0}).has_value());
 }
 
+TEST(Lens, AbsurdDistortionEndsTheIterationToo) {
+  for (const double k : {1e300, -1e300, 1e30, -1e30, 1e-300})
+    for (const Lens& one : lenses()) {
+      Lens absurd = one;
+      for (std::size_t i = one.params.size() - 1; i > 3; --i) {
+        absurd.params[i] = i % 2 ? k : -k;
+        if (one.model == "FOV") break;
+        const LensMap map(absurd);
+        for (const Vector2d& pixel : {Vector2d(0, 0), Vector2d(321.5, 237.5), Vector2d(640, 3)})
+          if (const auto direction = map.undistort(pixel)) {
+            EXPECT_TRUE(direction->allFinite());
+          }
+      }
+    }
+}
+
 TEST(Lens, RationalModelEndsAtItsPole) {
   const Lens one = lens("FULL_OPENCV", {300, 300, 322, 238, 0, 0, 0, 0, 0, -0.5, 0, 0});
   EXPECT_TRUE(distort(one, {1.41, 0}).has_value());

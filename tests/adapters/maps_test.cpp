@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The Gigaray authors
 #include "gigaray/adapters/maps.h"
 #include "gigaray/adapters/depth_folder.h"
+#include "gigaray/adapters/pictures.h"
 
 #include <sys/resource.h>
 
@@ -222,23 +223,54 @@ TEST_F(DepthPicture, NearIsRedFarIsBlueNothingIsBlack) {
   EXPECT_EQ(seen.at<cv::Vec3b>(0, 2), cv::Vec3b(0, 0, 0));
 }
 
+/// Two views of 5 x 3 px.
+LightField small_field() {
+  LightField light_field;
+  light_field.width = 5;
+  light_field.height = 3;
+  light_field.views = {{"a", -0.5, 0}, {"b", 0.5, 0}};
+  light_field.pixels = pixels_in_memory({2, Image<std::uint16_t>(5, 3, 3, 77)}, 8);
+  return light_field;
+}
+
 TEST_F(DepthOutput, MetricDepthIsThereWhenTheRigIsKnown) {
   const FloatMap disparity(5, 3, 1, 2.5f), confidence(5, 3, 1, 1);
   for (const bool known : {false, true}) {
-    RigGeometry rig;
-    rig.focal_px = 1000;
-    if (known) rig.baseline = 0.025;
-    rig.focus_distance = 5;
+    LightField light_field = small_field();
+    light_field.rig.focal_px = 1000;
+    if (known) light_field.rig.baseline = 0.025;
+    light_field.rig.focus_distance = 5;
     const std::filesystem::path target = folder / (known ? "known" : "unknown");
-    DepthFolder out(target, {});
-    out.set_rig(rig);
-    out.write_view("a", disparity, confidence, true);
+    DepthFolder out(target, {}, light_field);
+    out.write_view(0, disparity, confidence, true);
     out.commit("{}");
     EXPECT_EQ(exists(target / "depth.pfm"), known);
     EXPECT_EQ(exists(target / "a" / "depth.pfm"), known);
+    EXPECT_FALSE(exists(target / "picture.png"));
     if (known) {
       EXPECT_FLOAT_EQ(read_pfm(target / "depth.pfm")(4, 2), 25 / 7.5f);
     }
+  }
+}
+
+TEST_F(DepthOutput, UnstructuredViewsGetDepthAndTheirPictureInTheirOwnSize) {
+  LightField light_field = small_field();
+  light_field.kind = LightFieldKind::kUnstructured;
+  light_field.cameras.resize(2);
+  light_field.cameras[0].width = 4;
+  light_field.cameras[0].height = 3;
+  FloatMap disparity(5, 3, 1, 0.25f);
+  disparity(1, 1) = 0;
+  DepthFolder out(folder / "out", {}, light_field);
+  out.write_view(0, disparity, FloatMap(5, 3, 1, 1), true);
+  out.commit("{}");
+  for (const auto& place : {folder / "out", folder / "out" / "a"}) {
+    const FloatMap depth = read_pfm(place / "depth.pfm");
+    ASSERT_EQ(depth.width(), 4);
+    EXPECT_EQ(depth(0, 0), 4);
+    EXPECT_TRUE(std::isnan(depth(1, 1))) << "infinitely far";
+    EXPECT_EQ(read_picture(place / "picture.png")(3, 2, 1), 77);
+    EXPECT_EQ(read_picture(place / "picture.png").width(), 4);
   }
 }
 

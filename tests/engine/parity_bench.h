@@ -93,6 +93,8 @@ struct ParityRig<EpiSampler> {
   static constexpr LightFieldKind kKind = LightFieldKind::k3D;
   static std::vector<View> regular() { return row_of_views(9); }
   static std::vector<View> irregular() { return irregular_row(); }
+  static HypothesisRange hypotheses() { return {-1.31, 1.73, 19}; }
+  static EpiSampler sampler(const std::vector<View>& views, int, int) { return EpiSampler(views); }
 };
 template <>
 struct ParityRig<GridSampler> {
@@ -100,25 +102,43 @@ struct ParityRig<GridSampler> {
   static constexpr LightFieldKind kKind = LightFieldKind::k4D;
   static std::vector<View> regular() { return grid_of_views(3, 3); }
   static std::vector<View> irregular() { return irregular_grid(); }
+  static HypothesisRange hypotheses() { return {-1.31, 1.73, 19}; }
+  static GridSampler sampler(const std::vector<View>& views, int, int) {
+    return GridSampler(views);
+  }
+};
+template <>
+struct ParityRig<UnstructuredSampler> {
+  static constexpr const char* kName = "Unstr";
+  static constexpr LightFieldKind kKind = LightFieldKind::kUnstructured;
+  static std::vector<View> regular() { return grid_of_views(3, 3); }
+  static std::vector<View> irregular() { return irregular_grid(); }
+  static HypothesisRange hypotheses() { return {0, 1, 19}; }
+  static UnstructuredSampler sampler(const std::vector<View>& views, int width, int height) {
+    return UnstructuredSampler(cameras_around(views, width, height));
+  }
 };
 
 /// Both backends over one band of smooth, random and flat content, and maps to call them with.
 template <RaySampler S>
 class ParityBench {
  public:
-  ParityBench(const ParityCase& size, const DepthOptions& options,
+  ParityBench(const ParityCase& size, DepthOptions options,
               const std::vector<View>& views = ParityRig<S>::irregular(),
-              const HypothesisRange& hypotheses = {-1.31, 1.73, 19},
+              const HypothesisRange& hypotheses = ParityRig<S>::hypotheses(),
               const opencl::TuningOverrides& tuning = {})
-      : size_(size), hypotheses_(hypotheses), sampler_(views), random_(size.width) {
+      : size_(size),
+        hypotheses_(hypotheses),
+        sampler_(ParityRig<S>::sampler(views, size.width << size.level, size.height << size.level)),
+        random_(size.width) {
+    if (!S::kRaysShiftAlike) options.score.cubic = false;  // as prepared by reconstruct()
     const BackendSetup setup{options, hypotheses_, ParityRig<S>::kKind,
                              size.encoding == BandEncoding::kBits16 ? 16 : 8};
     reference = make_reference_backend(sampler_, setup);
     opencl = opencl::make_tuned_backend(sampler_, setup, "", tuning);
     // No window reaches farther.
     const int halo = std::max(kSlopeReach, kScanlineReach + options.support.radius) + 3;
-    loaded = sampler_.at_level(size.level)
-                 .rows_needed(grown(size.rows, halo, size.height), hypotheses_, size.height);
+    loaded = rows_of_all(grown(size.rows, halo, size.height));
     fill(views);
     std::vector<int> active(sampler_.num_views());
     for (int i = 0; i < int(active.size()); ++i) active[i] = int(active.size()) - 1 - i;
@@ -127,7 +147,8 @@ class ParityBench {
     for (Backend* backend : {reference.get(), opencl.get()}) {
       backend->set_active_views(active);
       backend->begin_level({size.level, size.width, size.height});
-      backend->load_band(loaded, encoded_.data(), size.encoding);
+      backend->load_band(loaded, all_views(sampler_.num_views()), encoded_.data(), size.encoding,
+                         nullptr);
     }
   }
 
@@ -138,6 +159,16 @@ class ParityBench {
   RowRange around(int halo) const { return grown(size_.rows, halo, size_.height); }
   const HypothesisRange& hypotheses() const { return hypotheses_; }
   const S& sampler() const { return sampler_; }
+  /// Rows that rays of `rows` of any view need.
+  RowRange rows_of_all(RowRange rows) const {
+    const S level = sampler_.at_level(size_.level);
+    RowRange all = rows;
+    for (int ref = 0; ref < level.num_views(); ++ref) {
+      const RowRange needed = level.rows_needed(ref, rows, hypotheses_, size_.height);
+      all = {std::min(all.begin, needed.begin), std::max(all.end, needed.end)};
+    }
+    return all;
+  }
   double uniform() { return double(random_()) / 4294967296.0; }
 
   /// Most pixels; whole blocks are empty.

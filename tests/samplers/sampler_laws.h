@@ -41,6 +41,8 @@ class SamplerLaws : public testing::Test {
       }
   }
 
+  /// Odd sizes round up.
+  static int size_at(int size, int level) { return (size + (1 << level) - 1) >> level; }
   double uniform(double low, double high) {
     return low + (high - low) * double(random_()) / 4294967295.0;
   }
@@ -100,35 +102,40 @@ TYPED_TEST_P(SamplerLaws, TheWayOverAThirdViewEndsAtTheSamePlace) {
 
 TYPED_TEST_P(SamplerLaws, Law4RowsNeededContainEveryRowReached) {
   const HypothesisRange range = TypeParam::hypotheses();
-  const RowRange bands[] = {
-      {0, 1}, {0, this->kHeight}, {13, 20}, {this->kHeight - 1, this->kHeight}};
-  this->for_each_pair([&](const auto& sampler, int a, int b) {
-    for (const RowRange& band : bands) {
-      const RowRange needed = sampler.rows_needed(band, range, this->kHeight);
-      EXPECT_GE(needed.begin, 0);
-      EXPECT_LE(needed.end, this->kHeight);
-      EXPECT_LE(needed.begin, band.begin);
-      EXPECT_GE(needed.end, band.end);
-      for (const double h : {range.min, range.max, this->random_ray().hypothesis})
-        for (const int v : {band.begin, band.end - 1})
-          for (const int u : {0, this->kWidth - 1}) {
-            const auto there = sampler.locate(a, b, Ray{double(u), double(v), h});
-            if (!there || there->v < 0 || there->v > this->kHeight - 1) continue;
-            // Linear interpolation takes the row above and the row below.
-            EXPECT_GE(int(std::floor(there->v)), needed.begin);
-            EXPECT_LT(int(std::ceil(there->v)), needed.end);
-          }
+  for (const auto& level0 : TypeParam::samplers())
+    for (int level = 0; level < this->kLevels; ++level) {
+      const auto sampler = level0.at_level(level);
+      const int width = this->size_at(this->kWidth, level);
+      const int height = this->size_at(this->kHeight, level);
+      const RowRange bands[] = {{0, 1}, {0, height}, {3, 7}, {height - 1, height}};
+      for (int a = 0; a < sampler.num_views(); ++a)
+        for (const RowRange& band : bands) {
+          const RowRange needed = sampler.rows_needed(a, band, range, height);
+          EXPECT_GE(needed.begin, 0);
+          EXPECT_LE(needed.end, height);
+          EXPECT_LE(needed.begin, band.begin);
+          EXPECT_GE(needed.end, band.end);
+          for (const int b : sampler.partners(a))
+            for (const double h : {range.min, range.max, this->random_ray().hypothesis})
+              for (const int v : {band.begin, band.end - 1})
+                for (const int u : {0, width / 3, width - 1}) {
+                  const auto there = sampler.locate(a, b, Ray{double(u), double(v), h});
+                  if (!there || there->v < 0 || there->v > height - 1) continue;
+                  // Linear interpolation takes the row above and the row below.
+                  EXPECT_GE(int(std::floor(there->v)), needed.begin);
+                  EXPECT_LT(int(std::ceil(there->v)), needed.end);
+                }
+        }
     }
-  });
 }
 
 TYPED_TEST_P(SamplerLaws, MoreRowsNeedNoFewerRows) {
   const HypothesisRange range = TypeParam::hypotheses();
   for (const auto& sampler : TypeParam::samplers())
     for (int begin = 0; begin < this->kHeight; begin += 7) {
-      const RowRange small = sampler.rows_needed({begin, begin + 1}, range, this->kHeight);
+      const RowRange small = sampler.rows_needed(0, {begin, begin + 1}, range, this->kHeight);
       const RowRange large =
-          sampler.rows_needed({begin, std::min(begin + 9, this->kHeight)}, range, this->kHeight);
+          sampler.rows_needed(0, {begin, std::min(begin + 9, this->kHeight)}, range, this->kHeight);
       EXPECT_LE(large.begin, small.begin);
       EXPECT_GE(large.end, small.end);
     }
@@ -153,15 +160,47 @@ TYPED_TEST_P(SamplerLaws, ALevelHalvesPixelsAndKeepsHypotheses) {
     }
 }
 
-TYPED_TEST_P(SamplerLaws, ViewTableHasItsWidthForEveryView) {
+TYPED_TEST_P(SamplerLaws, RayTableHasItsWidthForEveryView) {
   for (const auto& sampler : TypeParam::samplers())
-    EXPECT_EQ(int(sampler.view_table().size()),
-              sampler.num_views() * int(TypeParam::Sampler::kViewTableWidth));
+    for (int ref = 0; ref < sampler.num_views(); ++ref)
+      EXPECT_EQ(int(sampler.ray_table(ref).size()),
+                sampler.num_views() * int(TypeParam::Sampler::kRayTableWidth));
+}
+
+TYPED_TEST_P(SamplerLaws, PartnersAreAscendingViewsWithTheReferenceAmongThem) {
+  for (const auto& sampler : TypeParam::samplers())
+    for (int ref = 0; ref < sampler.num_views(); ++ref) {
+      const std::vector<int> partners = sampler.partners(ref);
+      EXPECT_TRUE(std::is_sorted(partners.begin(), partners.end()));
+      EXPECT_TRUE(std::binary_search(partners.begin(), partners.end(), ref));
+      EXPECT_GE(partners.front(), 0);
+      EXPECT_LT(partners.back(), sampler.num_views());
+    }
+}
+
+TYPED_TEST_P(SamplerLaws, ASubsetLocatesRaysAsAllDo) {
+  for (const auto& all : TypeParam::samplers()) {
+    std::vector<int> chosen;
+    for (int view = 0; view < all.num_views(); ++view)
+      if (view % 2 == 1 || view == 0) chosen.push_back(view);
+    const auto some = all.subset(chosen);
+    ASSERT_EQ(some.num_views(), int(chosen.size()));
+    for (int a = 0; a < some.num_views(); ++a)
+      for (int b = 0; b < some.num_views(); ++b) {
+        const Ray ray = this->random_ray();
+        const auto expected = all.locate(chosen[a], chosen[b], ray),
+                   actual = some.locate(a, b, ray);
+        ASSERT_EQ(expected.has_value(), actual.has_value());
+        if (expected) this->expect_same(*expected, *actual);
+      }
+  }
 }
 
 REGISTER_TYPED_TEST_SUITE_P(SamplerLaws, Law1AViewSeesItsOwnRayAsItIs,
                             Law2ThereAndBackIsTheIdentity, TheWayOverAThirdViewEndsAtTheSamePlace,
                             Law4RowsNeededContainEveryRowReached, MoreRowsNeedNoFewerRows,
-                            ALevelHalvesPixelsAndKeepsHypotheses, ViewTableHasItsWidthForEveryView);
+                            ALevelHalvesPixelsAndKeepsHypotheses, RayTableHasItsWidthForEveryView,
+                            PartnersAreAscendingViewsWithTheReferenceAmongThem,
+                            ASubsetLocatesRaysAsAllDo);
 
 }  // namespace gigaray::testing_support

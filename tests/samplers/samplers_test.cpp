@@ -2,6 +2,8 @@
 // Copyright (c) 2026 The Gigaray authors
 #include <gtest/gtest.h>
 
+#include <numbers>
+
 #include "gigaray/samplers/any_sampler.h"
 #include "samplers/sampler_laws.h"
 #include "support/analytic_field.h"
@@ -31,6 +33,17 @@ struct GridRigs {
 INSTANTIATE_TYPED_TEST_SUITE_P(Epi, SamplerLaws, EpiRigs);
 INSTANTIATE_TYPED_TEST_SUITE_P(Grid, SamplerLaws, GridRigs);
 
+struct UnstructuredRigs {
+  using Sampler = UnstructuredSampler;
+  static std::vector<Sampler> samplers() {
+    return {Sampler(cameras_around(row_of_views(2), 93, 71)),
+            Sampler(cameras_around(irregular_grid(), 93, 71)),
+            Sampler(cameras_around(grid_of_views(3, 4), 93, 71), 5)};
+  }
+  static HypothesisRange hypotheses() { return {0, 1, 55}; }
+};
+INSTANTIATE_TYPED_TEST_SUITE_P(Unstructured, SamplerLaws, UnstructuredRigs);
+
 namespace {
 
 TEST(Samplers, Law3EpiIsGridWhereAllTAreEqual) {
@@ -49,9 +62,81 @@ TEST(Samplers, Law3EpiIsGridWhereAllTAreEqual) {
         EXPECT_EQ(in_epi->hypothesis, in_grid->hypothesis);
       }
     for (const RowRange rows : {RowRange{0, 1}, RowRange{5, 17}, RowRange{0, 71}})
-      EXPECT_EQ(epi.rows_needed(rows, EpiRigs::hypotheses(), 71),
-                grid.rows_needed(rows, EpiRigs::hypotheses(), 71));
+      EXPECT_EQ(epi.rows_needed(0, rows, EpiRigs::hypotheses(), 71),
+                grid.rows_needed(0, rows, EpiRigs::hypotheses(), 71));
   }
+}
+
+/// Parallel cameras at the positions of views; disparity d is inverse depth d / (focal · step).
+std::vector<Camera> rectified_cameras(const std::vector<View>& views, DisparityRange disparity,
+                                      double focal, double step) {
+  std::vector<Camera> cameras;
+  for (const View& view : views) {
+    Camera camera;
+    camera.width = 93;
+    camera.height = 71;
+    camera.focal_u = camera.focal_v = focal;
+    camera.centre_u = 45.5;
+    camera.centre_v = 33.25;
+    camera.translation = {-step * view.s, -step * view.t, 0};
+    camera.inverse_depth =
+        InverseDepthRange{disparity.min / (focal * step), disparity.max / (focal * step)};
+    cameras.push_back(camera);
+  }
+  return cameras;
+}
+
+TEST(Samplers, Law3UnstructuredIsGridOnARectifiedRig) {
+  const std::vector<View> views = irregular_grid();
+  const DisparityRange range{0.2, 3.1};
+  const UnstructuredSampler all(rectified_cameras(views, range, 110, 0.04));
+  const GridSampler all_in_grid(views);
+  for (int level = 0; level < 4; ++level) {
+    const auto sampler = all.at_level(level);
+    const auto grid = all_in_grid.at_level(level);
+    for (int a = 0; a < sampler.num_views(); ++a)
+      for (int b = 0; b < sampler.num_views(); ++b)
+        for (const double h : {0.0, 0.37, 1.0}) {
+          const double u = 9.0 + a, v = 3.0 + b;
+          const auto there = sampler.locate(a, b, {u, v, h});
+          const double d = range.min + h * (range.max - range.min);
+          const auto in_grid = grid.locate(a, b, {u, v, d});
+          ASSERT_TRUE(there && in_grid);
+          EXPECT_NEAR(there->u, in_grid->u, 1e-9);
+          EXPECT_NEAR(there->v, in_grid->v, 1e-9);
+          EXPECT_NEAR(there->hypothesis, h, 1e-9);
+        }
+  }
+}
+
+TEST(Samplers, PartnersShareTheSceneUnderSmallAngles) {
+  // A ring of cameras that look at its middle, 30 degrees apart.
+  std::vector<Camera> ring;
+  for (int i = 0; i < 12; ++i) {
+    Camera camera;
+    camera.width = 93;
+    camera.height = 71;
+    camera.focal_u = camera.focal_v = 100;
+    camera.centre_u = 46;
+    camera.centre_v = 35;
+    const double angle = i * std::numbers::pi / 6;
+    camera.rotation = Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitY()).toRotationMatrix();
+    camera.translation = {0, 0, 10};
+    camera.inverse_depth = InverseDepthRange{1.0 / 11, 1.0 / 9};
+    ring.push_back(camera);
+  }
+  EXPECT_EQ(UnstructuredSampler(ring).partners(3), (std::vector<int>{2, 3, 4}));
+  EXPECT_EQ(UnstructuredSampler(ring).partners(0), (std::vector<int>{0, 1, 11}));
+  EXPECT_EQ(UnstructuredSampler(ring, 1).partners(5).size(), 2u);
+}
+
+TEST(Samplers, UnstructuredSeesNothingBehindACamera) {
+  std::vector<Camera> cameras = rectified_cameras(row_of_views(2), {1, 3}, 100, 0.1);
+  cameras[1].rotation =
+      Eigen::AngleAxisd(std::numbers::pi, Eigen::Vector3d::UnitY()).toRotationMatrix();
+  const UnstructuredSampler sampler(cameras);
+  EXPECT_FALSE(sampler.locate(0, 1, {40, 30, 0.5}));
+  EXPECT_EQ(sampler.rows_needed(0, {3, 5}, {0, 1, 9}, 71), (RowRange{3, 5})) << "no partner";
 }
 
 TEST(Samplers, NearPointsMoveLeftWhenTheCameraMovesRight) {
@@ -77,45 +162,55 @@ TEST(Samplers, TheKindOfTheLightFieldChoosesTheSampler) {
   light_field.kind = LightFieldKind::k4D;
   EXPECT_TRUE(std::holds_alternative<GridSampler>(make_sampler(light_field)));
   light_field.kind = LightFieldKind::kUnstructured;
-  expect_error(ErrorCode::kBadInput, {"unstructured"}, [&] { make_sampler(light_field); });
+  light_field.cameras = cameras_around(light_field.views, 93, 71);
+  EXPECT_TRUE(std::holds_alternative<UnstructuredSampler>(make_sampler(light_field)));
 }
 
 // Compile-fail twins of the concept: each type lacks or bends one member of a sampler.
 struct NoLocate {
-  static constexpr int kViewTableWidth = 1;
+  static constexpr int kRayTableWidth = 1;
+  static constexpr bool kRaysShiftAlike = true;
   static constexpr std::string_view kKernelFile = "x.cl";
   int num_views() const;
-  RowRange rows_needed(RowRange, HypothesisRange, int) const;
-  std::vector<float> view_table() const;
+  std::vector<int> partners(int) const;
+  RowRange rows_needed(int, RowRange, HypothesisRange, int) const;
+  std::vector<float> ray_table(int) const;
 };
 template <class Self>
 struct Locates : NoLocate {
   std::optional<Ray> locate(int, int, Ray) const;
   Self at_level(int) const;
+  Self subset(const std::vector<int>&) const;
 };
 struct Complete : Locates<Complete> {};
 struct LocateWithoutBehind : Complete {
   Ray locate(int, int, Ray) const;
   LocateWithoutBehind at_level(int) const;
+  LocateWithoutBehind subset(const std::vector<int>&) const;
 };
 struct LevelOfAnotherType : Complete {
   Complete at_level(int) const;
+  LevelOfAnotherType subset(const std::vector<int>&) const;
 };
 struct ChangesWhenAsked : Complete {
   int num_views();
   ChangesWhenAsked at_level(int) const;
+  ChangesWhenAsked subset(const std::vector<int>&) const;
 };
 struct TableOfDoubles : Complete {
-  std::vector<double> view_table() const;
+  std::vector<double> ray_table(int) const;
   TableOfDoubles at_level(int) const;
+  TableOfDoubles subset(const std::vector<int>&) const;
 };
 struct NoKernelFile : Complete {
   static constexpr int kKernelFile = 7;
   NoKernelFile at_level(int) const;
+  NoKernelFile subset(const std::vector<int>&) const;
 };
 struct CannotBeCopied : Complete {
   CannotBeCopied(const CannotBeCopied&) = delete;
   CannotBeCopied at_level(int) const;
+  CannotBeCopied subset(const std::vector<int>&) const;
 };
 static_assert(RaySampler<Complete>);
 static_assert(!RaySampler<int>);

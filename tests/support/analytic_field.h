@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The Gigaray authors
 #pragma once
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -43,6 +44,31 @@ class WavePattern {
   double contrast_;
   Wave waves_[kWaves];
 };
+
+/// Cameras at the positions of views, half turned away from each other in all three axes, that see
+/// a depth of 8 … 12 units. size: px.
+inline std::vector<Camera> cameras_around(const std::vector<View>& views, int width, int height) {
+  std::vector<Camera> cameras;
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    const double angle = 0.03 * (double(i % 5) - 2), roll = 0.05 * (double(i % 3) - 1);
+    Camera camera;
+    camera.width = width;
+    camera.height = height;
+    camera.focal_u = 1.1 * std::max(width, height);
+    camera.focal_v = 1.05 * std::max(width, height);
+    camera.centre_u = 0.48 * width;
+    camera.centre_v = 0.53 * height;
+    camera.rotation = (Eigen::AngleAxisd(roll, Eigen::Vector3d::UnitZ()) *
+                       Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitY()) *
+                       Eigen::AngleAxisd(-0.7 * angle, Eigen::Vector3d::UnitX()))
+                          .toRotationMatrix();
+    const Eigen::Vector3d position(0.3 * views[i].s, 0.3 * views[i].t, 0.1 * double(i % 4));
+    camera.translation = -camera.rotation * position;
+    camera.inverse_depth = InverseDepthRange{1.0 / 12, 1.0 / (8 + 0.1 * double(i % 3))};
+    cameras.push_back(camera);
+  }
+  return cameras;
+}
 
 /// A textured plane parallel to the views, cut to a rectangle: px of the view at (0, 0).
 struct Layer {

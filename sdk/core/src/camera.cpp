@@ -49,7 +49,7 @@ void check(const Camera& camera, const std::string& name) {
 
 std::optional<InverseDepthRange> range_of_depths(std::vector<double> depths) {
   constexpr std::size_t kLeastPoints = 8;
-  constexpr double kPercentile = 0.01, kMargin = 0.1;
+  constexpr double kPercentile = 0.005, kMargin = 0.2;
   if (depths.size() < kLeastPoints) return std::nullopt;
   for (double& z : depths) z = 1 / z;
   std::sort(depths.begin(), depths.end());

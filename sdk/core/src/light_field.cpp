@@ -82,6 +82,20 @@ Image<std::uint16_t> read_view(const LightField& light_field, int view_idx) {
   return picture;
 }
 
+std::optional<Mask> take_mask(Image<std::uint16_t>& picture) {
+  if (picture.channels() < 4) return std::nullopt;
+  const int width = picture.width(), height = picture.height();
+  Image<std::uint16_t> colours(width, height, 3);
+  Mask mask(width, height);
+  for (int v = 0; v < height; ++v)
+    for (int u = 0; u < width; ++u) {
+      for (int c = 0; c < 3; ++c) colours(u, v, c) = picture(u, v, c);
+      mask(u, v) = picture(u, v, 3) > 0;
+    }
+  picture = std::move(colours);
+  return mask;
+}
+
 std::vector<int> views_from_centre(const LightField& light_field) {
   std::vector<int> order(light_field.views.size());
   std::iota(order.begin(), order.end(), 0);

@@ -17,4 +17,16 @@ FloatMap depth_from_disparity(const FloatMap& disparity, const RigGeometry& rig)
   return depth;
 }
 
+bool has_metric_depth(const LightField& light_field) {
+  return light_field.kind == LightFieldKind::kUnstructured || has_metric_depth(light_field.rig);
+}
+
+FloatMap depth_from_disparity(const FloatMap& disparity, const LightField& light_field) {
+  if (light_field.kind != LightFieldKind::kUnstructured)
+    return depth_from_disparity(disparity, light_field.rig);
+  FloatMap depth = disparity;
+  for (float& value : depth) value = value > 0 ? 1 / value : kNoEstimate;
+  return depth;
+}
+
 }  // namespace gigaray

@@ -29,8 +29,13 @@ class SmoothedPixels : public PixelSource {
   SmoothedPixels(std::shared_ptr<const PixelSource> pixels, double sigma)
       : pixels_(std::move(pixels)), sigma_(sigma) {}
   Image<std::uint16_t> read(int view_idx) const override {
-    return smooth_picture(pixels_->read(view_idx), sigma_);
+    const Image<std::uint16_t> picture = pixels_->read(view_idx);
+    Image<std::uint16_t> smooth = smooth_picture(picture, sigma_);
+    for (int v = 0; has_mask() && v < picture.height(); ++v)
+      for (int u = 0; u < picture.width(); ++u) smooth(u, v, 3) = picture(u, v, 3);
+    return smooth;
   }
+  bool has_mask() const override { return pixels_->has_mask(); }
   int bit_depth() const override { return pixels_->bit_depth(); }
 
  private:

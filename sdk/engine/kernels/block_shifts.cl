@@ -5,8 +5,8 @@
 //   shifts  [hypothesis][view]
 // One work-item per (view, hypothesis).
 
-__kernel void block_shifts(__global const float* views, const int ref, const int num_views,
+__kernel void block_shifts(__global const float* rays, const int num_views,
                            const HypothesisParams hypotheses, __global BlockShift* shifts) {
   const int k = get_global_id(0), i = get_global_id(1);
-  shifts[i * num_views + k] = block_shift(views, ref, k, hypotheses.min + i * hypotheses.step);
+  shifts[i * num_views + k] = block_shift(rays, k, hypotheses.min + i * hypotheses.step);
 }

@@ -12,6 +12,9 @@
 #ifndef CUBIC
 #define CUBIC 0  // 1: Catmull-Rom interpolation, 0: linear
 #endif
+#ifndef SHIFT_ALIKE
+#define SHIFT_ALIKE 1  // 1: rays of neighbouring pixels go by one shift (3D, 4D); 0: each its own way
+#endif
 
 #ifndef GROUP
 #define GROUP 1  // work-items per work-group along u; each has its own slice of local memory
@@ -252,3 +255,126 @@ static inline __attribute__((always_inline)) void sample_block(__global const fl
 #endif
   }
 }
+
+// ---- Rays that go each its own way (SHIFT_ALIKE 0) -----------------------------------------------
+// Their samples come from taps, in which the channels of a pixel lie together:
+//   taps  [row][view][width + 1][TAP_WIDTH]: RGB and nothing, then gx, gy and two times nothing
+// The last pixel of a row is there twice, for the tap to the right.
+
+#define TAP_WIDTH (CHANNELS > 3 ? 8 : 4)
+// Red of a sample that a masked pixel has part in, see kMaskedColour.
+#define MASKED_SAMPLE -1.0f
+
+// Where another view sees LANES pixels, px, and how that place changes with the pixel.
+typedef struct {
+  vfloat x, y;
+  vfloat x_u, x_v, y_u, y_v;
+} LanePlaces;
+
+#if CHANNELS > 3
+typedef float8 tap_t;
+#define VLOAD_TAP(p) vload8(0, p)
+#else
+typedef float4 tap_t;
+#define VLOAD_TAP(p) vload4(0, p)
+#endif
+
+#if LANES == 1
+#define VFLOOR_INT(x) ((int)(x))
+#define VTO_FLOAT(x) ((float)(x))
+#else
+#define VFLOOR_INT(x) CONCAT(convert_int, LANES)(x)  // of x >= 0
+#define VTO_FLOAT(x) CONCAT(convert_float, LANES)(x)
+#endif
+
+// Four channels of LANES pixels, from pixels to planes.
+static inline void planes_of(const float4* pixels, vfloat* planes) {
+#if LANES == 1
+  planes[0] = pixels[0].s0;
+  planes[1] = pixels[0].s1;
+  planes[2] = pixels[0].s2;
+  planes[3] = pixels[0].s3;
+#else
+#if LANES == 16
+  const vfloat a = (float16)(pixels[0], pixels[1], pixels[2], pixels[3]);
+  const vfloat b = (float16)(pixels[4], pixels[5], pixels[6], pixels[7]);
+  const vfloat c = (float16)(pixels[8], pixels[9], pixels[10], pixels[11]);
+  const vfloat d = (float16)(pixels[12], pixels[13], pixels[14], pixels[15]);
+#elif LANES == 8
+  const vfloat a = (float8)(pixels[0], pixels[1]), b = (float8)(pixels[2], pixels[3]);
+  const vfloat c = (float8)(pixels[4], pixels[5]), d = (float8)(pixels[6], pixels[7]);
+#else
+  const vfloat a = pixels[0], b = pixels[1], c = pixels[2], d = pixels[3];
+#endif
+  const vfloat even_ab = (vfloat)(a.even, b.even), even_cd = (vfloat)(c.even, d.even);
+  const vfloat odd_ab = (vfloat)(a.odd, b.odd), odd_cd = (vfloat)(c.odd, d.odd);
+  planes[0] = (vfloat)(even_ab.even, even_cd.even);
+  planes[1] = (vfloat)(odd_ab.even, odd_cd.even);
+  planes[2] = (vfloat)(even_ab.odd, even_cd.odd);
+  planes[3] = (vfloat)(odd_ab.odd, odd_cd.odd);
+#endif
+}
+
+// Bilinear samples of a view at LANES places: RGB, then gx and gy along the axes of the view. inside: 1
+// for lanes inside the picture and clear of masked pixels, else 0; those hold anything. Returns 0 when
+// no lane is inside the picture.
+static inline __attribute__((always_inline)) int sample_lanes(__global const float* taps,
+                                                              const BandParams p, int view,
+                                                              vfloat x, vfloat y, vfloat* sample,
+                                                              vfloat* inside) {
+  const float right = (float)(p.width - 1), bottom = (float)(p.height - 1);
+  const vfloat in_picture =
+      VSELECT((vfloat)(0.0f), (vfloat)(1.0f),
+              x >= -SNAP && x <= right + SNAP && y >= -SNAP && y <= bottom + SNAP);
+  if (!(largest_lane(in_picture) > 0.0f)) return 0;
+  x = clamp(x, 0.0f, right);
+  y = clamp(y, (float)p.row_begin, (float)(p.row_end - 1));
+  const vint xi = VFLOOR_INT(x), yi = VFLOOR_INT(y);
+  const vfloat fx = x - VTO_FLOAT(xi), fy = y - VTO_FLOAT(yi);
+  // In floats: a buffer has less than 2^31 of them.
+  const int pitch = (p.width + 1) * TAP_WIDTH, next = p.num_views * pitch;
+  const vint first = (yi - p.row_begin) * next + view * pitch + xi * TAP_WIDTH;
+  const vint second = first + VSELECT((vint)(0), (vint)(next), yi + 1 < p.row_end);
+  int upper[LANES], lower[LANES];
+  float along[LANES], across[LANES];
+  VSTORE(first, upper);
+  VSTORE(second, lower);
+  VSTORE(fx, along);
+  VSTORE(fy, across);
+  float4 colours[LANES];
+#if CHANNELS > 3
+  float4 gradients[LANES];
+#endif
+  UNROLL
+  for (int lane = 0; lane < LANES; ++lane) {
+    __global const float* a = taps + upper[lane];
+    __global const float* b = taps + lower[lane];
+    const tap_t above = VLOAD_TAP(a), below = VLOAD_TAP(b);
+    const tap_t top = above + along[lane] * (VLOAD_TAP(a + TAP_WIDTH) - above);
+    const tap_t low = below + along[lane] * (VLOAD_TAP(b + TAP_WIDTH) - below);
+    const tap_t value = top + across[lane] * (low - top);
+#if CHANNELS > 3
+    colours[lane] = value.lo;
+    gradients[lane] = value.hi;
+#else
+    colours[lane] = value;
+#endif
+  }
+  vfloat planes[4];
+  planes_of(colours, planes);
+  UNROLL
+  for (int c = 0; c < 3; ++c) sample[c] = planes[c];
+#if CHANNELS > 3
+  planes_of(gradients, planes);
+  sample[3] = planes[0];
+  sample[4] = planes[1];
+#endif
+  *inside = VSELECT((vfloat)(0.0f), in_picture, sample[0] >= MASKED_SAMPLE);
+  return 1;
+}
+
+#if LANES == 1
+#define PIXELS_FROM(u) ((float)(u))
+#else
+#define PIXELS_FROM(u) ((vfloat)(u) + LANE_NUMBERS)  // places of LANES neighbours
+#endif

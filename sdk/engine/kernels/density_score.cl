@@ -5,7 +5,8 @@
 //   band    [row][view][channel][stride]
 //   todo    [row][pitch] bytes, 0: nothing to do; a block of LANES zeros costs nothing
 //   bounds  [row][pitch] (first, last) hypothesis to test
-//   shifts  [hypothesis][view], from block_shifts
+//   ways    SHIFT_ALIKE 1: [hypothesis][view], from block_shifts; 0: the ray table
+//   source  where samples come from: the band, or its taps (SHIFT_ALIKE 0)
 //   scores  [row][u][hypothesis]; -1 where too few views see the point. Hypotheses outside the
 //           union of a block's bounds are not written.
 //   staged  local memory, 4 vectors per view: the samples, read once and used by every mean-shift
@@ -49,18 +50,30 @@ static inline Sample relative_sample(const vfloat* colour, vfloat inside, const 
   return sample;
 }
 
-// Sample of view k; adds 1 to count in lanes where it sees something.
-static inline Sample take_sample(__global const float* band, const BandParams p, int k,
-                                 const BlockShift shift, int u, int v, const vfloat* own,
-                                 float inverse_h, vfloat* count) {
+#if SHIFT_ALIKE
+typedef BlockShift Way;
+#define WAYS_OF(ways, i, num_views) ((ways) + (size_t)(i) * (num_views))
+#else
+typedef float Way;
+#define WAYS_OF(ways, i, num_views) (ways)
+#endif
+
+// Sample of view k of LANES pixels from (u, v) under hypothesis h; adds 1 to count in lanes where it
+// sees something.
+static inline Sample take_sample(__global const float* source, const BandParams p, int k,
+                                 __global const Way* ways, int u, int v, float h,
+                                 const vfloat* own, float inverse_h, vfloat* count) {
+  const Sample nothing = {0.0f, 0.0f, 0.0f, FAR_AWAY};
+  vfloat inside, colour[CHANNELS];
+#if SHIFT_ALIKE
   BlockPosition at;
-  vfloat inside;
-  if (!place_block(p, shift, u, v, &at, &inside)) {
-    const Sample nothing = {0.0f, 0.0f, 0.0f, FAR_AWAY};
-    return nothing;
-  }
-  vfloat colour[3];
-  sample_block(band, p, k, at, 0, 3, colour);
+  if (!place_block(p, ways[k], u, v, &at, &inside)) return nothing;
+  sample_block(source, p, k, at, 0, 3, colour);
+#else
+  LanePlaces at;
+  locate_lanes(ways, k, PIXELS_FROM(u), (vfloat)(v), h, &at);
+  if (!sample_lanes(source, p, k, at.x, at.y, colour, &inside)) return nothing;
+#endif
   *count += inside;
   return relative_sample(colour, inside, own, inverse_h);
 }
@@ -120,20 +133,20 @@ static inline Sample staged_sample(__local const vfloat* staged, int k) {
 }
 
 // STAGE 1: what the first iteration stored; else taken again.
-static inline Sample sample_again(__local const vfloat* staged, __global const float* band,
-                                  const BandParams p, int k, __global const BlockShift* shifts,
-                                  int u, int v, const vfloat* own, float inverse_h) {
+static inline Sample sample_again(__local const vfloat* staged, __global const float* source,
+                                  const BandParams p, int k, __global const Way* ways, int u, int v,
+                                  float h, const vfloat* own, float inverse_h) {
 #if STAGE
   return staged_sample(staged, k);
 #else
   vfloat ignored = (vfloat)(0.0f);
-  return take_sample(band, p, k, shifts[k], u, v, own, inverse_h, &ignored);
+  return take_sample(source, p, k, ways, u, v, h, own, inverse_h, &ignored);
 #endif
 }
 // Sum of the kernels around the mean that mean-shift finds. sums: of the first iteration.
-static inline vfloat mean_shift_density(__local const vfloat* staged, __global const float* band,
-                                        const BandParams p, __global const BlockShift* shift, int u,
-                                        int v, const vfloat* own, float inverse_h,
+static inline vfloat mean_shift_density(__local const vfloat* staged, __global const float* source,
+                                        const BandParams p, __global const Way* ways, int u, int v,
+                                        float h, const vfloat* own, float inverse_h,
                                         MeanShiftSums sums) {
   Mean mean = {1.0f, 0.0f, 0.0f, 0.0f};
   vfloat moving = (vfloat)(1.0f);
@@ -143,13 +156,13 @@ static inline vfloat mean_shift_density(__local const vfloat* staged, __global c
       MeanShiftSums even = {0.0f, 0.0f, 0.0f, 0.0f}, odd = {0.0f, 0.0f, 0.0f, 0.0f};
       int k = 0;
       for (; k + 1 < p.num_views; k += 2) {
-        const Sample x = sample_again(staged, band, p, k, shift, u, v, own, inverse_h);
+        const Sample x = sample_again(staged, source, p, k, ways, u, v, h, own, inverse_h);
         add_sample(&even, x, epanechnikov(x, mean));
-        const Sample y = sample_again(staged, band, p, k + 1, shift, u, v, own, inverse_h);
+        const Sample y = sample_again(staged, source, p, k + 1, ways, u, v, h, own, inverse_h);
         add_sample(&odd, y, epanechnikov(y, mean));
       }
       if (k < p.num_views) {
-        const Sample x = sample_again(staged, band, p, k, shift, u, v, own, inverse_h);
+        const Sample x = sample_again(staged, source, p, k, ways, u, v, h, own, inverse_h);
         add_sample(&even, x, epanechnikov(x, mean));
       }
       sums.weights = even.weights + odd.weights;
@@ -161,12 +174,13 @@ static inline vfloat mean_shift_density(__local const vfloat* staged, __global c
   }
   vfloat density = (vfloat)(0.0f);
   for (int k = 0; k < p.num_views; ++k)
-    density += epanechnikov(sample_again(staged, band, p, k, shift, u, v, own, inverse_h), mean);
+    density += epanechnikov(sample_again(staged, source, p, k, ways, u, v, h, own, inverse_h), mean);
   return density;
 }
 
-__kernel void density_score(__global const float* band, const BandParams p, const StripParams strip,
-                            __global const BlockShift* shifts, const HypothesisParams hypotheses,
+__kernel void density_score(__global const float* band, __global const float* source,
+                            const BandParams p, const StripParams strip, __global const Way* ways,
+                            const HypothesisParams hypotheses,
                             __global const uchar* todo, __global const ushort2* bounds,
                             const float bandwidth, const int min_views, const float floor_views, __global float* scores, __local vfloat* staged) {
   const int u = get_global_id(0) * LANES, row = get_global_id(1);
@@ -184,24 +198,26 @@ __kernel void density_score(__global const float* band, const BandParams p, cons
   const float inverse_h = 1.0f / bandwidth;
 
   for (int i = first; i <= last; ++i) {
-    __global const BlockShift* shift = shifts + (size_t)i * p.num_views;
+    __global const Way* here_ways = WAYS_OF(ways, i, p.num_views);
+    const float h = hypotheses.min + i * hypotheses.step;
     vfloat count = (vfloat)(0.0f);
     // The first iteration goes with taking the samples: around the pixel's own colour.
     MeanShiftSums sums = {0.0f, 0.0f, 0.0f, 0.0f};
     for (int k = 0; k < p.num_views; ++k) {
-      const Sample x = take_sample(band, p, k, shift[k], u, v, own, inverse_h, &count);
+      const Sample x = take_sample(source, p, k, here_ways, u, v, h, own, inverse_h, &count);
 #if STAGE
       stage(staged, k, x);
 #endif
       add_sample(&sums, x, max(1.0f - x.length2, (vfloat)(0.0f)));
     }
-    const vfloat density = mean_shift_density(staged, band, p, shift, u, v, own, inverse_h, sums);
+    const vfloat density =
+        mean_shift_density(staged, source, p, here_ways, u, v, h, own, inverse_h, sums);
     store_scores(scores + score_index(strip, hypotheses, row, u), hypotheses, i, strip.width - u,
                  score_of(density, count, min_views, floor_views));
   }
 }
 
-#if STAGE && !CUBIC && LANES > 1
+#if STAGE && !CUBIC && LANES > 1 && SHIFT_ALIKE
 // The same for pixels that stand alone, LANES of them together: most pixels of a view are known already
 // when its turn comes. The samples are fetched one by one; what follows is the same arithmetic, and
 // every pixel gets the same bits.
@@ -281,7 +297,7 @@ __kernel void density_score_packed(
       add_sample(&sums, sample, max(1.0f - sample.length2, (vfloat)(0.0f)));
     }
     const vfloat density =
-        mean_shift_density(staged, band, p, shift, 0, 0, own_colour, inverse_h, sums);
+        mean_shift_density(staged, band, p, shift, 0, 0, 0.0f, own_colour, inverse_h, sums);
     float score[LANES];
     VSTORE(score_of(density, count, min_views, floor_views), score);
     for (int lane = 0; lane < LANES; ++lane)

@@ -21,32 +21,41 @@
 // A colour that no kernel reaches stands for "not inside the picture".
 #define FAR_AWAY 1e4f
 
+// Linear interpolation of RGB.
+static inline void sample_colour(__global const float* band, const BandParams p, int k, int x, int y,
+                                 float fx, float fy, float* sample) {
+  __global const float* upper = band_row(band, p, k, y) + x;
+  __global const float* lower = fy > 0.0f ? band_row(band, p, k, y + 1) + x : upper;
+  for (int c = 0; c < 3; ++c) {
+    const int o = c * p.stride;
+    const float a = upper[o] + fx * (upper[o + 1] - upper[o]);
+    const float b = lower[o] + fx * (lower[o + 1] - lower[o]);
+    sample[c] = a + fy * (b - a);
+  }
+}
+
 // What view k sees of each pixel (u + lane, v) under its own hypothesis.
 static inline void sample_pixels(__global const float* band, const BandParams p,
-                                 __global const float* views, int ref, int k, int u, int v,
-                                 const float* h, vfloat* colour) {
+                                 __global const float* rays, int k, int u, int v, const float* h,
+                                 vfloat* colour) {
   float values[3][LANES];
   for (int lane = 0; lane < LANES; ++lane) {
     for (int c = 0; c < 3; ++c) values[c][lane] = FAR_AWAY;
     float x, y, h_other, fx, fy;
-    if (isnan(h[lane]) || !locate(views, ref, k, u + lane, v, h[lane], &x, &y, &h_other)) continue;
+    if (isnan(h[lane]) || !locate(rays, k, u + lane, v, h[lane], &x, &y, &h_other)) continue;
     const int xi = split_snapped(x, &fx), yi = split_snapped(y, &fy);
     if (xi < 0 || xi + (fx > 0.0f) > p.width - 1 || yi < 0 || yi + (fy > 0.0f) > p.height - 1)
       continue;
-    __global const float* upper = band_row(band, p, k, yi) + xi;
-    __global const float* lower = fy > 0.0f ? band_row(band, p, k, yi + 1) + xi : upper;
-    for (int c = 0; c < 3; ++c) {
-      const int o = c * p.stride;
-      const float a = upper[o] + fx * (upper[o + 1] - upper[o]);
-      const float b = lower[o] + fx * (lower[o + 1] - lower[o]);
-      values[c][lane] = a + fy * (b - a);
-    }
+    float sample[3];
+    sample_colour(band, p, k, xi, yi, fx, fy, sample);
+    if (sample[0] < MASKED_SAMPLE) continue;
+    for (int c = 0; c < 3; ++c) values[c][lane] = sample[c];
   }
   for (int c = 0; c < 3; ++c) colour[c] = VLOAD(values[c]);
 }
 
 __kernel void mean_radiance(__global const float* band, const BandParams p, const StripParams strip,
-                            __global const float* views, __global const float* disparity,
+                            __global const float* rays, __global const float* disparity,
                             const float bandwidth, __global float* radiance,
                             __local vfloat* staged) {
   const int u = get_global_id(0) * LANES, row = get_global_id(1);
@@ -65,7 +74,7 @@ __kernel void mean_radiance(__global const float* band, const BandParams p, cons
   for (int c = 0; c < 3; ++c) mean[c] = VLOAD(own + c * p.stride);
 #if STAGE
   for (int k = 0; k < p.num_views; ++k) {
-    sample_pixels(band, p, views, strip.ref, k, u, v, h, colour);
+    sample_pixels(band, p, rays, k, u, v, h, colour);
     for (int c = 0; c < 3; ++c) staged[SLICE(3 * k + c)] = colour[c];
   }
 #endif
@@ -76,7 +85,7 @@ __kernel void mean_radiance(__global const float* band, const BandParams p, cons
       UNROLL
       for (int c = 0; c < 3; ++c) colour[c] = staged[SLICE(3 * k + c)];
 #else
-      sample_pixels(band, p, views, strip.ref, k, u, v, h, colour);
+      sample_pixels(band, p, rays, k, u, v, h, colour);
 #endif
       const vfloat r = colour[0] - mean[0], g = colour[1] - mean[1], b = colour[2] - mean[2];
       const vfloat d2 = r * r + g * g + b * b;

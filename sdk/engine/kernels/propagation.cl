@@ -3,7 +3,7 @@
 // Propagation (section 4.4): an accepted estimate is written into every other view that sees its
 // point in a similar colour. Where estimates meet the nearer one stays, then the more confident one:
 // the result does not depend on the order.
-//   active     [active_count] the views that keep estimates
+//   active     [active_count] places in the band of the views that keep estimates; -1: not there
 //   disparity  [row][pitch]; NaN: not accepted
 //   confidence [row][pitch]; radiance [row][pitch][3]
 //   estimates  [row - state_begin][active view][width] packed: ordered(hypothesis) << 32 | bits of
@@ -17,20 +17,21 @@ static inline ulong packed_estimate(float h, float confidence) {
 }
 
 __kernel void propagation(__global const float* band, const BandParams p, const StripParams strip,
-                          __global const float* views, __global const int* active,
+                          __global const float* rays, __global const int* active,
                           const int active_count, __global const float* disparity,
                           __global const float* confidence, __global const float* radiance,
                           const float tolerance, const int state_begin, const int state_end,
                           __global ulong* estimates) {
   const int target = get_global_id(0);
   const int view = active[target];
+  if (view < 0) return;
   for (int v = strip.row_begin; v < strip.row_end; ++v) {
     for (int u = 0; u < p.width; ++u) {
       const size_t pixel = map_index(strip, v - strip.row_begin, u);
       const float h = disparity[pixel];
       if (isnan(h)) continue;
       float x = u, y = v, h_other = h;
-      if (!locate(views, strip.ref, view, u, v, h, &x, &y, &h_other)) continue;
+      if (!locate(rays, view, u, v, h, &x, &y, &h_other)) continue;
       if (!(x > -0.5f && x < p.width - 0.5f && y > -0.5f && y < p.height - 0.5f)) continue;
       const int xi = min((int)floor(x + 0.5f), p.width - 1);
       const int yi = min((int)floor(y + 0.5f), p.height - 1);

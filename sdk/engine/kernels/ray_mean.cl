@@ -16,7 +16,7 @@ static inline float4 ray_taps(float f) {
 }
 
 __kernel void ray_mean(__global const float* band, const BandParams p, const StripParams strip,
-                       __global const float* views, __global const float* disparity,
+                       __global const float* rays, __global const float* disparity,
                        const float bandwidth, __global float* means) {
   const int u = get_global_id(0), row = get_global_id(1), v = strip.row_begin + row;
   if (u >= strip.width) return;
@@ -30,7 +30,7 @@ __kernel void ray_mean(__global const float* band, const BandParams p, const Str
   const int num_views = isnan(d) ? 0 : p.num_views;
   for (int k = 0; k < num_views; ++k) {
     float x, y, d_other, fx, fy;
-    if (!locate(views, strip.ref, k, u, v, d, &x, &y, &d_other)) continue;
+    if (!locate(rays, k, u, v, d, &x, &y, &d_other)) continue;
     const int xi = split_snapped(x, &fx), yi = split_snapped(y, &fy);
     if (xi < 0 || xi + (fx > 0.0f) > p.width - 1 || yi < 0 || yi + (fy > 0.0f) > p.height - 1)
       continue;
@@ -50,6 +50,7 @@ __kernel void ray_mean(__global const float* band, const BandParams p, const Str
       sample[c] = dot(wx, column);
       d2 += (sample[c] - own[c]) * (sample[c] - own[c]);
     }
+    if (sample[0] < MASKED_SAMPLE) continue;
     const float w = max(1.0f - sqrt(d2) / bandwidth, 0.0f);
     weights += w;
     UNROLL

@@ -11,7 +11,8 @@
 // HALF_PLANES 1: the largest of the averages over the 8 half-planes; a point beside a silhouette is
 // hidden from one side only.
 // One work-item per (block of UNITS * LANES pixels, row): what is interpolated between rows serves all
-// pixels of a block.
+// pixels of a block. SHIFT_ALIKE 0: samples come from taps, and gradients are turned into the axes of
+// the reference view.
 
 #ifndef UNITS
 #define UNITS 1
@@ -26,6 +27,8 @@
 #endif
 // Vectors beside a block that hold the columns of the last taps.
 #define TAP_VECTORS ((3 + LANES - 1) / LANES)
+
+#if SHIFT_ALIKE
 
 static inline float4 tap_weights(float f) {
 #if CUBIC
@@ -171,3 +174,66 @@ __kernel void robust_score(__global const float* band, const BandParams p, const
     }
   }
 }
+
+#else
+
+__kernel void robust_score(__global const float* taps, const BandParams p, const StripParams strip,
+                           __global const float* own_band, const BandParams own_p,
+                           const int own_view, __global const float* rays,
+                           const HypothesisParams hypotheses, __global const uchar* todo,
+                           __global const ushort2* bounds, __global const uchar* members,
+                           const float bandwidth, const float gradient_bandwidth,
+                           const float gradient_share, const int min_views, const float floor_views,
+                           __global float* scores) {
+  const int row = get_global_id(1), v = strip.row_begin + row;
+  for (int j = 0; j < UNITS; ++j) {
+    const int u = (get_global_id(0) * UNITS + j) * LANES;
+    if (u >= strip.width) return;
+    const int2 tested = block_bounds(todo, bounds, strip, row, u);
+    if (tested.y < 0) continue;
+
+    vfloat own[CHANNELS];
+    __global const float* here = band_row(own_band, own_p, own_view, v) + u;
+    UNROLL
+    for (int c = 0; c < CHANNELS; ++c) own[c] = VLOAD(here + c * p.stride);
+    const float inverse_h = 1.0f / bandwidth;
+    for (int i = tested.x; i <= tested.y; ++i) {
+      const float h = hypotheses.min + i * hypotheses.step;
+      vfloat sums[PARTS], counts[PARTS];
+      for (int part = 0; part < PARTS; ++part) sums[part] = counts[part] = (vfloat)(0.0f);
+      for (int k = 0; k < p.num_views; ++k) {
+        if (!members[k]) continue;
+        LanePlaces at;
+        locate_lanes(rays, k, PIXELS_FROM(u), (vfloat)(v), h, &at);
+        vfloat sample[CHANNELS], inside;
+        if (!sample_lanes(taps, p, k, at.x, at.y, sample, &inside)) continue;
+        vfloat squared = (vfloat)(0.0f);
+        UNROLL
+        for (int c = 0; c < 3; ++c) squared += (sample[c] - own[c]) * (sample[c] - own[c]);
+        const vfloat colour = inside * max(1.0f - sqrt(squared) * inverse_h, (vfloat)(0.0f));
+        UNROLL
+        for (int part = 0; part < PARTS; ++part)
+          if (PARTS == 1 || members[k] >> part & 1) counts[part] += inside;
+        // Another colour is an occluder: its gradient is not asked for.
+        if (!(largest_lane(colour) > 0.0f)) continue;
+        vfloat kernel_value = (1.0f - gradient_share) * colour;
+#if CHANNELS > 3
+        const vfloat gx = sample[3] * at.x_u + sample[4] * at.y_u - own[3];
+        const vfloat gy = sample[3] * at.x_v + sample[4] * at.y_v - own[4];
+        const vfloat gradient = max(1.0f - sqrt(gx * gx + gy * gy) / gradient_bandwidth, (vfloat)(0.0f));
+        kernel_value += gradient_share * gradient * min(4.0f * colour, (vfloat)(1.0f));
+#endif
+        UNROLL
+        for (int part = 0; part < PARTS; ++part)
+          if (PARTS == 1 || members[k] >> part & 1) sums[part] += kernel_value;
+      }
+      vfloat score = score_of(sums[0], counts[0], min_views, floor_views);
+      for (int part = 1; part < PARTS; ++part)
+        score = max(score, score_of(sums[part], counts[part], min_views, floor_views));
+      store_scores(scores + score_index(strip, hypotheses, row, u), hypotheses, i, strip.width - u,
+                   score);
+    }
+  }
+}
+
+#endif

@@ -37,6 +37,31 @@ __kernel void unpack_colours(__global const source_t* encoded, __global const fl
   }
 }
 
+// mask: [row][view][u], 0: the pixel shows nothing of the scene.
+__kernel void mask_pixels(__global const uchar* mask, const float masked_colour, const BandParams p,
+                          __global float* band) {
+  const int view = get_global_id(0), row = get_global_id(1);
+  __global const uchar* in = mask + ((size_t)row * p.num_views + view) * p.width;
+  __global float* out = band + ((size_t)row * p.num_views + view) * CHANNELS * p.stride + GIGARAY_PAD;
+  for (int u = 0; u < p.width; ++u)
+    if (in[u] == 0)
+      for (int c = 0; c < 3; ++c) out[c * p.stride + u] = masked_colour;
+}
+
+// The same band with the channels of a pixel side by side, see common.cl.
+__kernel void interleave_taps(__global const float* band, const BandParams p, __global float* taps) {
+  const int view = get_global_id(0), row = get_global_id(1);
+  const size_t line = (size_t)row * p.num_views + view;
+  __global const float* in = band + line * CHANNELS * p.stride + GIGARAY_PAD;
+  __global float* out = taps + line * (p.width + 1) * TAP_WIDTH;
+  for (int u = 0; u <= p.width; ++u) {  // the padding repeats the last pixel
+    for (int c = 0; c < 3; ++c) out[u * TAP_WIDTH + c] = in[c * p.stride + u];
+#if CHANNELS > 3
+    for (int c = 3; c < 5; ++c) out[u * TAP_WIDTH + c + 1] = in[c * p.stride + u];
+#endif
+  }
+}
+
 // gx, gy: half the difference of the neighbours' channel means; at the border the pixel itself
 // takes the missing neighbour's place. Rows at the edge of a band that is not the picture's edge
 // get a one-sided gy: the halo of a band includes one row for that.

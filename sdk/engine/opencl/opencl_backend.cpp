@@ -2,15 +2,15 @@
 // Copyright (c) 2026 The Gigaray authors
 #include <algorithm>
 #include <cmath>
-#include <functional>
-#include <optional>
+#include <map>
 
 #include "gigaray/samplers/any_sampler.h"
 #include "kernels/kernel_params.h"
+#include "opencl/kernel_set.h"
 #include "opencl/lane_kernel.h"
 #include "opencl/opencl_backend.h"
-#include "opencl/program_cache.h"
-#include "src/view_sets.h"
+#include "opencl/sampler_twin.h"
+#include "src/band_views.h"
 
 namespace gigaray {
 namespace {
@@ -18,11 +18,14 @@ namespace {
 using opencl::Buffer;
 using opencl::define;
 using opencl::Kernel;
+using opencl::kStagedVectors;
 using opencl::LaneKernel;
 using opencl::LocalMemory;
 using opencl::pack_sparse_blocks;
 using opencl::round_up;
+using opencl::SamplerTwin;
 using opencl::Scratch;
+using opencl::twin_of;
 using opencl::WorkSize;
 
 static_assert(StripMap<float>::kPad == GIGARAY_PAD);
@@ -33,25 +36,17 @@ constexpr int kWidestLanes = 16;
 /// Floats beside the states of a scan-line, see scanline.cl.
 constexpr int kScanlineMargin = 16;
 
-/// Local memory of density_score per view, see there; mean_radiance takes 3.
-constexpr int kStagedVectors = 4;
-
-/// The OpenCL twin of a sampler.
-struct SamplerTwin {
-  std::string kernel_file;
-  std::function<std::vector<float>(int level)> view_table;
-  std::function<std::vector<std::uint8_t>(int ref, ScoreViews views)> score_members;
-  int num_views = 0;
-};
-
 class OpenClBackend : public Backend {
  public:
   OpenClBackend(SamplerTwin sampler, const BackendSetup& setup, const std::string& selection,
                 opencl::TuningOverrides overrides)
-      : sampler_(std::move(sampler)),
+      : all_views_(std::move(sampler)),
         setup_(setup),
-        overrides_(std::move(overrides)),
         device_(opencl::Device::open(selection)),
+        kernels_(
+            device_, all_views_.kernel_file,
+            define("CHANNELS", channels()) + define("SHIFT_ALIKE", all_views_.rays_shift_alike),
+            all_views_.num_views, std::move(overrides)),
         table_(colour_table(setup.bit_depth, setup.options.score.linear_rgb)) {
     hypotheses_ = {float(setup.hypotheses.min), float(setup.hypotheses.step()),
                    setup.hypotheses.count, int(round_up(setup.hypotheses.count, kWidestLanes))};
@@ -63,23 +58,21 @@ class OpenClBackend : public Backend {
     return device_.info().name + " (" + device_.info().platform + ")";
   }
 
-  void set_active_views(const std::vector<int>& views) override {
-    active_count_ = int(views.size());
-    active_buffer_ = Buffer(device_, std::span<const int>(views));
-  }
+  void set_active_views(const std::vector<int>& views) override { active_views_ = views; }
 
   void begin_level(const LevelShape& shape) override {
+    level_ = shape.level;
     band_.width = shape.width;
     band_.height = shape.height;
-    band_.num_views = sampler_.num_views;
     band_.stride = StripMap<float>::pitch_for(shape.width);
-    const std::vector<float> views = sampler_.view_table(shape.level);
-    views_buffer_ = Buffer(device_, std::span<const float>(views));
-    shifts_ref_ = -1;
+    loaded_views_.clear();
+    places_.clear();
   }
 
-  void load_band(RowRange rows, const void* encoded, BandEncoding encoding) override {
+  void load_band(RowRange rows, const std::vector<int>& views, const void* encoded,
+                 BandEncoding encoding, const std::uint8_t* mask) override {
     restore_reference();
+    see_views(views);
     band_.row_begin = rows.begin;
     band_.row_end = rows.end;
     const int bits = encoding == BandEncoding::kBits8    ? 8
@@ -101,6 +94,22 @@ class OpenClBackend : public Backend {
       plain_kernel("unpack_channels", "unpack_gradients", options)
           .set_args(band_, band)
           .run(all, WorkSize(1, 1));
+    if (mask) {
+      const std::size_t pixels = std::size_t(rows.size()) * band_.num_views * band_.width;
+      Buffer& device_mask = mask_.at_least(device_, pixels);
+      device_mask.write(std::span(mask, pixels));
+      plain_kernel("unpack_channels", "mask_pixels", options)
+          .set_args(device_mask, kMaskedColour, band_, band)
+          .run(all, WorkSize(1, 1));
+    }
+    if (!all_views_.rays_shift_alike) {
+      const std::size_t tap_bytes = (channels() > 3 ? 8 : 4) * sizeof(float);
+      Buffer& taps = taps_.at_least(
+          device_, std::size_t(rows.size()) * band_.num_views * (band_.width + 1) * tap_bytes);
+      plain_kernel("unpack_channels", "interleave_taps", options)
+          .set_args(band, band_, taps)
+          .run(all, WorkSize(1, 1));
+    }
   }
 
   void edge_confidence(int ref, RowRange rows, StripMap<float>& confidence) override {
@@ -127,9 +136,9 @@ class OpenClBackend : public Backend {
 
     StripMap<std::uint8_t> in_blocks = todo;
     std::vector<int> packed;
-    if (kernel.staged && kernel.lanes > 1 && !score.cubic)
+    if (kernel.staged && kernel.lanes > 1 && !score.cubic && all_views_.rays_shift_alike)
       packed = pack_sparse_blocks(rows, kernel.lanes, in_blocks);
-    kernel.kernel.set_args(band_memory_.buffer, band_, strip(ref, rows), block_shifts(ref),
+    kernel.kernel.set_args(band_memory_.buffer, samples(), band_, strip(ref, rows), ways(ref),
                            hypotheses_, upload(1, rows, in_blocks), tested, score.bandwidth,
                            min_views, floor_views, scores, staged);
     kernel.run(band_.width, rows.size());
@@ -138,9 +147,9 @@ class OpenClBackend : public Backend {
       const int blocks = int(packed.size()) / (2 * sparse.lanes);
       Buffer& list = packed_.at_least(device_, packed.size() * sizeof(int));
       list.write(std::span<const int>(packed));
-      sparse.kernel.set_args(band_memory_.buffer, band_, strip(ref, rows), block_shifts(ref),
-                             hypotheses_, list, blocks, tested, score.bandwidth, min_views,
-                             floor_views, scores, staged);
+      sparse.kernel.set_args(band_memory_.buffer, band_, strip(ref, rows), ways(ref), hypotheses_,
+                             list, blocks, tested, score.bandwidth, min_views, floor_views, scores,
+                             staged);
       sparse.run(blocks * sparse.lanes, 1);
     }
     device_.finish();  // so that the stage's seconds are its own
@@ -157,11 +166,10 @@ class OpenClBackend : public Backend {
     Buffer& scores = raw_volume(rows);
     const float floor_views = (halves ? kLeastHalfPlane : score.floor_views) * float(members.used);
     const OwnPixels own = reference_pixels(ref);
-    kernel.kernel.set_args(band_memory_.buffer, band_, strip(ref, rows), own.buffer, own.band,
-                           own.view, block_shifts(ref), hypotheses_, upload(1, rows, todo),
-                           upload(2, rows, bounds), members.buffer, score.bandwidth,
-                           score.gradient_bandwidth, score.gradient_share,
-                           least_views(members.used), floor_views, scores);
+    kernel.kernel.set_args(samples(), band_, strip(ref, rows), own.buffer, own.band, own.view,
+                           ways(ref), hypotheses_, upload(1, rows, todo), upload(2, rows, bounds),
+                           members.buffer, score.bandwidth, score.gradient_bandwidth,
+                           score.gradient_share, least_views(members.used), floor_views, scores);
     kernel.run(band_.width, rows.size());
     device_.finish();
   }
@@ -171,7 +179,7 @@ class OpenClBackend : public Backend {
     LaneKernel& kernel = lane_kernel("ray_mean", define("CUBIC", setup_.options.score.cubic));
     const std::size_t values = std::size_t(rows.size()) * channels() * band_.stride;
     Buffer& out = means_.at_least(device_, values * sizeof(float));
-    kernel.kernel.set_args(band_memory_.buffer, band_, strip(ref, rows), views_buffer_,
+    kernel.kernel.set_args(band_memory_.buffer, band_, strip(ref, rows), rays(ref),
                            upload(3, rows, disparity), setup_.options.score.bandwidth, out);
     kernel.run_pixels(band_.width, rows.size());
     out.read(std::span(means.padded_row(rows.begin * channels()), values));
@@ -198,7 +206,7 @@ class OpenClBackend : public Backend {
     const SupportOptions& support = setup_.options.support;
     LaneKernel& kernel = lane_kernel("score_support", define("RADIUS", support.radius));
     Buffer& supported = supported_scores_.at_least(device_, volume_bytes(rows));
-    kernel.kernel.set_args(own.buffer, own.band, strip(own.view, rows), hypotheses_,
+    kernel.kernel.set_args(own.buffer, own.band, own_strip(own.view, rows), hypotheses_,
                            upload(1, rows, todo), upload(2, rows, bounds), raw_scores_.buffer,
                            raw_rows_.begin, support.sigma_colour, support.sigma_space, supported);
     kernel.run_pixels(band_.width, rows.size());
@@ -214,7 +222,7 @@ class OpenClBackend : public Backend {
     LaneKernel& kernel =
         lane_kernel("score_support", define("RADIUS", support.radius), "slanted_support");
     Buffer& supported = supported_scores_.at_least(device_, volume_bytes(rows));
-    kernel.kernel.set_args(own.buffer, own.band, strip(own.view, rows), hypotheses_,
+    kernel.kernel.set_args(own.buffer, own.band, own_strip(own.view, rows), hypotheses_,
                            upload(1, rows, todo), upload(2, rows, bounds), upload(5, rows, slopes),
                            raw_scores_.buffer, raw_rows_.begin, support.sigma_colour,
                            support.sigma_space, supported);
@@ -235,7 +243,7 @@ class OpenClBackend : public Backend {
     const int directions[4][2] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}};
     for (int i = 0; i < 4; ++i) {
       const auto [du, dv] = directions[i];
-      kernel.kernel.set_args(own.buffer, own.band, strip(own.view, rows), hypotheses_, tested,
+      kernel.kernel.set_args(own.buffer, own.band, own_strip(own.view, rows), hypotheses_, tested,
                              supported_scores_.buffer, score_rows_.begin, du, dv,
                              support.small_price, support.jump_price, support.jump_sigma_colour,
                              int(i > 0), paths, LocalMemory{states * sizeof(float)});
@@ -255,7 +263,7 @@ class OpenClBackend : public Backend {
     LaneKernel& kernel = lane_kernel("slope_fit", "");
     const RowRange around = grown(rows, kSlopeReach, band_.height);
     Buffer& out = map_out(5, rows, sizeof(Slope));
-    kernel.kernel.set_args(own.buffer, own.band, strip(own.view, rows), upload(4, around, in),
+    kernel.kernel.set_args(own.buffer, own.band, own_strip(own.view, rows), upload(4, around, in),
                            around.begin, hypotheses_.step,
                            hypotheses_.step * setup_.options.support.max_slope, out);
     kernel.run(band_.width, rows.size());
@@ -270,7 +278,7 @@ class OpenClBackend : public Backend {
     Buffer& best = map_out(3, rows, sizeof(float));
     Buffer& lead = map_out(4, rows, sizeof(float));
     const int search = chosen_by_ == winner_scores_ ? 0 : kScanlineSearch;
-    kernel.kernel.set_args(strip(0, rows), hypotheses_, upload(1, rows, todo),
+    kernel.kernel.set_args(own_strip(0, rows), hypotheses_, upload(1, rows, todo),
                            upload(2, rows, bounds), chosen_by_->buffer, winner_scores_->buffer,
                            score_rows_.begin, search, best, lead);
     kernel.run_pixels(band_.width, rows.size());
@@ -283,7 +291,7 @@ class OpenClBackend : public Backend {
     GIGARAY_CHECK(rows.begin >= score_rows_.begin && rows.end <= score_rows_.end);
     LaneKernel& kernel = lane_kernel("winner", "", "score_of_estimate");
     Buffer& out = map_out(4, rows, sizeof(float));
-    kernel.kernel.set_args(strip(0, rows), hypotheses_, upload(1, rows, todo),
+    kernel.kernel.set_args(own_strip(0, rows), hypotheses_, upload(1, rows, todo),
                            winner_scores_->buffer, score_rows_.begin, upload(3, rows, disparity),
                            out);
     kernel.run_pixels(band_.width, rows.size());
@@ -307,10 +315,10 @@ class OpenClBackend : public Backend {
         lane_kernel("bilateral_median", define("RADIUS", radius) + define("BILATERAL", bilateral));
     const RowRange around = grown(rows, radius, band_.height);
     // A plain median looks at no colour, but a kernel argument must be some buffer.
-    Buffer& band = bilateral ? own.buffer : views_buffer_;
+    Buffer& band = bilateral ? own.buffer : table_buffer_;
     Buffer& result = map_out(3, rows, sizeof(float));
     const std::size_t window = std::size_t(2 * radius + 1) * (2 * radius + 1);
-    kernel.kernel.set_args(band, own.band, strip(own.view, rows), upload(4, around, in),
+    kernel.kernel.set_args(band, own.band, own_strip(own.view, rows), upload(4, around, in),
                            around.begin, bilateral ? tolerance : 0.0f, result,
                            kernel.vectors(window));
     kernel.run(band_.width, rows.size());
@@ -321,7 +329,7 @@ class OpenClBackend : public Backend {
                      StripMap<Radiance>& radiance) override {
     LaneKernel& kernel = lane_kernel("mean_radiance", score_defines());
     Buffer& out = map_out(5, rows, sizeof(Radiance));
-    kernel.kernel.set_args(band_memory_.buffer, band_, strip(ref, rows), views_buffer_,
+    kernel.kernel.set_args(band_memory_.buffer, band_, strip(ref, rows), rays(ref),
                            upload(3, rows, disparity), setup_.options.score.bandwidth, out,
                            kernel.vectors(kernel.staged ? kStagedVectors * band_.num_views : 1));
     kernel.run(band_.width, rows.size());
@@ -332,18 +340,19 @@ class OpenClBackend : public Backend {
                    const StripMap<float>& confidence, const StripMap<Radiance>& radiance,
                    RowRange state_rows, PackedEstimate* estimates) override {
     Kernel& kernel = plain_kernel("propagation", "propagation", "");
+    const int active_count = int(active_views_.size());
     const std::span<std::byte> host(
         reinterpret_cast<std::byte*>(estimates),
-        std::size_t(state_rows.size()) * active_count_ * band_.width * sizeof(PackedEstimate));
+        std::size_t(state_rows.size()) * active_count * band_.width * sizeof(PackedEstimate));
     Buffer state = device_.info().shares_host_memory
                        ? Buffer::over_host_memory(device_, host)
                        : Buffer(device_, std::span<const std::byte>(host));
     kernel
-        .set_args(band_memory_.buffer, band_, strip(ref, rows), views_buffer_, active_buffer_,
-                  active_count_, upload(3, rows, disparity), upload(4, rows, confidence),
+        .set_args(band_memory_.buffer, band_, strip(ref, rows), rays(ref), active_buffer_,
+                  active_count, upload(3, rows, disparity), upload(4, rows, confidence),
                   upload(5, rows, radiance), setup_.options.propagation.tolerance, state_rows.begin,
                   state_rows.end, state)
-        .run(WorkSize(active_count_), WorkSize(1));
+        .run(WorkSize(active_count), WorkSize(1));
     if (device_.info().shares_host_memory)
       opencl::Mapping(state, opencl::Mapping::Access::kRead);
     else
@@ -368,7 +377,7 @@ class OpenClBackend : public Backend {
     int view;
   };
   OwnPixels reference_pixels(int ref) {
-    if (own_rows_.size() == 0) return {band_memory_.buffer, band_, ref};
+    if (own_rows_.size() == 0) return {band_memory_.buffer, band_, place_of(places_, ref)};
     BandParams own = band_;
     own.num_views = 1;
     own.row_begin = own_rows_.begin;
@@ -385,15 +394,20 @@ class OpenClBackend : public Backend {
   const ViewSet& view_set(int ref, ScoreViews views) {
     ViewSet& set = view_sets_[views];
     if (set.ref == ref) return set;
-    const std::vector<std::uint8_t> members = sampler_.score_members(ref, views);
+    const std::vector<std::uint8_t> members =
+        band_views_.score_members(place_of(places_, ref), views);
     set.buffer = Buffer(device_, std::span<const std::uint8_t>(members));
     set.used = int(members.size() - std::count(members.begin(), members.end(), 0));
     set.ref = ref;
     return set;
   }
 
-  StripParams strip(int ref, RowRange rows) const {
-    return {ref, band_.width, rows.begin, rows.end, band_.stride};
+  /// `view`: a view of the light field. OwnPixels::view goes into own_strip() instead.
+  StripParams strip(int view, RowRange rows) const {
+    return own_strip(place_of(places_, view), rows);
+  }
+  StripParams own_strip(int place, RowRange rows) const {
+    return {place, band_.width, rows.begin, rows.end, band_.stride};
   }
 
   std::size_t volume_bytes(RowRange rows) const {
@@ -419,17 +433,42 @@ class OpenClBackend : public Backend {
            define("CUBIC", score.cubic);
   }
 
-  /// Shifts from `ref` to all views under all hypotheses.
-  Buffer& block_shifts(int ref) {
+  /// From now on the band holds these views.
+  void see_views(const std::vector<int>& views) {
+    if (views == loaded_views_) return;
+    loaded_views_ = views;
+    places_ = places_in(views, all_views_.num_views);
+    band_.num_views = int(views.size());
+    band_views_ = all_views_.of_band(views, level_);
+    std::vector<int> active;
+    for (const int view : active_views_) active.push_back(places_[view]);
+    if (!active.empty()) active_buffer_ = Buffer(device_, std::span<const int>(active));
+    rays_ref_ = shifts_ref_ = -1;
+    for (auto& [which, set] : view_sets_) set.ref = -1;
+  }
+
+  /// The twin's table for rays of `ref`.
+  Buffer& rays(int ref) {
+    if (rays_ref_ == ref) return rays_buffer_;
+    const std::vector<float> table = band_views_.ray_table(place_of(places_, ref));
+    rays_buffer_ = Buffer(device_, std::span<const float>(table));
+    rays_ref_ = ref;
+    return rays_buffer_;
+  }
+  /// How kernels find samples: shifts from `ref` to all views under all hypotheses, or the table.
+  Buffer& ways(int ref) {
+    if (!all_views_.rays_shift_alike) return rays(ref);
     Buffer& shifts = shifts_.at_least(
         device_, std::size_t(hypotheses_.count) * band_.num_views * sizeof(BlockShift));
     if (shifts_ref_ != ref)
       plain_kernel("block_shifts", "block_shifts", "")
-          .set_args(views_buffer_, ref, band_.num_views, hypotheses_, shifts)
+          .set_args(rays(ref), band_.num_views, hypotheses_, shifts)
           .run(WorkSize(band_.num_views, hypotheses_.count), WorkSize(1, 1));
     shifts_ref_ = ref;
     return shifts;
   }
+  /// Where kernels find samples.
+  Buffer& samples() { return all_views_.rays_shift_alike ? band_memory_.buffer : taps_.buffer; }
 
   /// Device copy of some rows of a map. slot: maps of one call need different ones.
   template <class T>
@@ -446,73 +485,37 @@ class OpenClBackend : public Backend {
     buffer.read(std::span(map.padded_row(rows.begin), std::size_t(rows.size()) * map.pitch()));
   }
 
-  Kernel build(const std::string& file, const std::string& entry, const std::string& options) {
-    const std::string kernel_file = file + ".cl";
-    const opencl::SourcePart parts[] = {
-        {"kernel_params.h", opencl::kernel_source("kernel_params.h")},
-        {"common.cl", opencl::kernel_source("common.cl")},
-        {sampler_.kernel_file, opencl::kernel_source(sampler_.kernel_file)},
-        {kernel_file, opencl::kernel_source(kernel_file)}};
-    return Kernel(device_,
-                  opencl::build_program(device_, parts, options + define("CHANNELS", channels())),
-                  entry);
-  }
-
   Kernel& plain_kernel(const std::string& file, const std::string& entry,
                        const std::string& options) {
-    auto [it, is_new] = plain_kernels_.try_emplace(entry + options);
-    if (is_new) it->second = build(file, entry, options);
-    return it->second;
+    return kernels_.plain(file, entry, options);
   }
-
   LaneKernel& lane_kernel(const std::string& file, const std::string& options,
-                          std::string entry = "") {
-    if (entry.empty()) entry = file;
-    auto [it, is_new] = lane_kernels_.try_emplace(entry + options);
-    if (is_new) {
-      const opencl::Tuning tuning = tuning_of(file);
-      const auto stage = tuning.find("STAGE"), units = tuning.find("UNITS");
-      it->second = {build(file, entry, opencl::defines(tuning) + options), tuning.at("LANES"),
-                    tuning.at("GROUP"), units == tuning.end() ? 1 : units->second,
-                    stage != tuning.end() && stage->second != 0};
-    }
-    return it->second;
+                          const std::string& entry = "") {
+    return kernels_.lanes(file, options, entry);
   }
 
-  opencl::Tuning tuning_of(const std::string& kernel) const {
-    opencl::Tuning tuning = opencl::lookup_tuning(device_.info(), kernel);
-    if (const auto own = overrides_.find(kernel); own != overrides_.end())
-      for (const auto& [name, value] : own->second) tuning[name] = value;
-    if (tuning.contains("STAGE")) {
-      // Only where local memory holds them.
-      const std::size_t bytes = std::size_t(kStagedVectors) * sampler_.num_views *
-                                tuning.at("LANES") * tuning.at("GROUP") * sizeof(float);
-      if (bytes > device_.info().local_memory) tuning["STAGE"] = 0;
-    }
-    return tuning;
-  }
-
-  SamplerTwin sampler_;
+  SamplerTwin all_views_;
+  SamplerTwin band_views_;  ///< of the level and the loaded views
   BackendSetup setup_;
-  opencl::TuningOverrides overrides_;
   opencl::Device device_;
+  opencl::KernelSet kernels_;
   std::vector<float> table_;
   HypothesisParams hypotheses_{};
   BandParams band_{};
-  int active_count_ = 0;
-  int shifts_ref_ = -1;  ///< The view that shifts_ is for.
+  int level_ = 0;
+  std::vector<int> active_views_, loaded_views_;
+  std::vector<int> places_;              ///< of all views among loaded_views_
+  int rays_ref_ = -1, shifts_ref_ = -1;  ///< The views that rays_buffer_ and shifts_ are for.
   RowRange score_rows_;
   RowRange raw_rows_;                 ///< of raw_scores_
   Scratch* winner_scores_ = nullptr;  ///< the scores of score_rows_
   Scratch* chosen_by_ = nullptr;      ///< path_scores_ after a scan-line step, else the scores
 
-  Buffer table_buffer_, active_buffer_, views_buffer_;
+  Buffer table_buffer_, active_buffer_, rays_buffer_;
   std::map<ScoreViews, ViewSet> view_sets_;
   RowRange own_rows_;  ///< of own_pixels_, which stand for the reference view; empty: they don't
-  Scratch shifts_, packed_, encoded_, band_memory_, own_pixels_, means_, raw_scores_,
+  Scratch shifts_, packed_, encoded_, mask_, band_memory_, taps_, own_pixels_, means_, raw_scores_,
       supported_scores_, path_scores_, maps_[6];
-  std::map<std::string, Kernel> plain_kernels_;
-  std::map<std::string, LaneKernel> lane_kernels_;
 };
 
 }  // namespace
@@ -523,19 +526,17 @@ template <RaySampler S>
 std::unique_ptr<Backend> make_tuned_backend(const S& sampler, const BackendSetup& setup,
                                             const std::string& device_selection,
                                             const TuningOverrides& overrides) {
-  SamplerTwin twin{std::string(S::kKernelFile),
-                   [sampler](int level) { return sampler.at_level(level).view_table(); },
-                   [sampler, range = setup.hypotheses](int ref, ScoreViews views) {
-                     return score_members(sampler, ref, views, range);
-                   },
-                   sampler.num_views()};
-  return std::make_unique<OpenClBackend>(std::move(twin), setup, device_selection, overrides);
+  return std::make_unique<OpenClBackend>(twin_of(sampler, setup.hypotheses), setup,
+                                         device_selection, overrides);
 }
 
 template std::unique_ptr<Backend> make_tuned_backend(const EpiSampler&, const BackendSetup&,
                                                      const std::string&, const TuningOverrides&);
 template std::unique_ptr<Backend> make_tuned_backend(const GridSampler&, const BackendSetup&,
                                                      const std::string&, const TuningOverrides&);
+template std::unique_ptr<Backend> make_tuned_backend(const UnstructuredSampler&,
+                                                     const BackendSetup&, const std::string&,
+                                                     const TuningOverrides&);
 
 }  // namespace opencl
 
@@ -549,5 +550,7 @@ template std::unique_ptr<Backend> make_opencl_backend(const EpiSampler&, const B
                                                       const std::string&);
 template std::unique_ptr<Backend> make_opencl_backend(const GridSampler&, const BackendSetup&,
                                                       const std::string&);
+template std::unique_ptr<Backend> make_opencl_backend(const UnstructuredSampler&,
+                                                      const BackendSetup&, const std::string&);
 
 }  // namespace gigaray

@@ -52,6 +52,9 @@ inline std::array<float, 4> tap_weights(float f, bool cubic) {
           0.5f * f3 - 0.5f * f2};
 }
 
+/// A sample with less red has a masked pixel in it (kMaskedColour); cubic taps overshoot by less.
+constexpr float kMaskedSample = -1;
+
 /// Positions this near to a pixel centre are that centre, px. Otherwise rounding would decide
 /// whether the last column is inside the picture.
 inline double snapped(double x) {
@@ -60,8 +63,8 @@ inline double snapped(double x) {
   return std::abs(x - whole) < kSnap ? whole : x;
 }
 
-/// The value of a view at a real position; empty outside the picture. Taps beyond an edge repeat
-/// it.
+/// The value of a view at a real position; empty outside the picture and where a masked pixel has
+/// part in it. Taps beyond an edge repeat it.
 inline std::optional<Sample> sample_at(const Band& band, int view, double u, double v, bool cubic) {
   const LevelShape& shape = band.shape;
   u = snapped(u);
@@ -80,6 +83,7 @@ inline std::optional<Sample> sample_at(const Band& band, int view, double u, dou
         sample[c] += wv[y + 1] * wu[x + 1] * band.plane(view, row, c)[column];
     }
   }
+  if (sample[0] < kMaskedSample) return std::nullopt;
   return sample;
 }
 

@@ -7,7 +7,8 @@
 namespace gigaray::reference {
 
 /// Writes accepted estimates into every active view that sees them in a similar colour
-/// (section 4.4). estimates: [state_rows][active view][width].
+/// (section 4.4). active_views: their places in the band, -1: not there. estimates:
+/// [state_rows][active view][width].
 template <RaySampler S>
 void propagation(const Band& band, const S& sampler, int ref, RowRange rows,
                  const std::vector<int>& active_views, float tolerance,
@@ -22,6 +23,7 @@ void propagation(const Band& band, const S& sampler, int ref, RowRange rows,
       const Radiance& mean = radiance.row(v)[u];
       for (std::size_t target = 0; target < active_views.size(); ++target) {
         const int view = active_views[target];
+        if (view < 0) continue;
         const auto there = sampler.locate(ref, view, Ray{double(u), double(v), h});
         if (!there) continue;
         const double x = std::floor(there->u + 0.5), y = std::floor(there->v + 0.5);

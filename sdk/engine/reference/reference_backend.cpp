@@ -13,6 +13,7 @@
 #include "scanline.h"
 #include "score_support.h"
 #include "slope_fit.h"
+#include "src/band_views.h"
 #include "unpack_channels.h"
 #include "winner.h"
 
@@ -35,42 +36,48 @@ class ReferenceBackend : public Backend {
   void set_active_views(const std::vector<int>& views) override { active_views_ = views; }
 
   void begin_level(const LevelShape& shape) override {
-    sampler_ = level0_sampler_.at_level(shape.level);
-    band_ = Band{shape, {}, sampler_.num_views(), channels(), {}};
+    band_ = Band{shape, {}, 0, channels(), {}};
+    places_.clear();
   }
-  void load_band(RowRange rows, const void* encoded, BandEncoding encoding) override {
+  void load_band(RowRange rows, const std::vector<int>& views, const void* encoded,
+                 BandEncoding encoding, const std::uint8_t* mask) override {
     restore_reference();
+    sampler_ = level0_sampler_.subset(views).at_level(band_.shape.level);
+    places_ = places_in(views, level0_sampler_.num_views());
     band_.rows = rows;
+    band_.num_views = int(views.size());
     band_.data.resize(std::size_t(rows.size()) * band_.num_views * band_.channels *
                       band_.shape.width);
     unpack_channels(encoded, encoding, table_, band_);
+    if (mask) mask_pixels(mask, band_);
   }
   void edge_confidence(int ref, RowRange rows, StripMap<float>& confidence) override {
-    reference::edge_confidence(band_, ref, rows, setup_.options.edge,
+    reference::edge_confidence(band_, place(ref), rows, setup_.options.edge,
                                setup_.kind != LightFieldKind::k3D, confidence);
   }
   void density_score(int ref, RowRange rows, const StripMap<std::uint8_t>& todo,
                      const StripMap<HypothesisBounds>& bounds) override {
-    score_rays(rows, todo, bounds, [&](const Ray& ray) {
-      return reference::density_score(band_, sampler_, ref, ray, setup_.options.score);
+    score_rays(rows, todo, bounds, [&, at = place(ref)](const Ray& ray) {
+      return reference::density_score(band_, sampler_, at, ray, setup_.options.score);
     });
   }
   void robust_score(int ref, RowRange rows, const StripMap<std::uint8_t>& todo,
                     const StripMap<HypothesisBounds>& bounds, ScoreViews views) override {
     const bool halves = views == ScoreViews::kHalfPlanes;
-    const auto members = score_members(sampler_, ref, views, setup_.hypotheses);
+    const int at = place(ref);
+    const auto members = score_members(sampler_, at, views, setup_.hypotheses);
     const OwnPixels own = reference_pixels(ref);
     const ScoreOptions score =
         own_.data.empty() ? setup_.options.score : against_means(setup_.options.score);
     score_rays(rows, todo, bounds, [&](const Ray& ray) {
-      return reference::robust_score(band_, sampler_, ref, ray,
+      return reference::robust_score(band_, sampler_, at, ray,
                                      own.band.pixel(own.view, int(ray.u), int(ray.v)), score,
                                      members, halves ? kHalfPlanes : 1);
     });
   }
   void ray_mean(int ref, RowRange rows, const StripMap<float>& disparity,
                 StripMap<float>& means) override {
-    reference::ray_mean(band_, sampler_, ref, rows, setup_.options.score, disparity, means);
+    reference::ray_mean(band_, sampler_, place(ref), rows, setup_.options.score, disparity, means);
   }
   void replace_reference(RowRange rows, const StripMap<float>& means) override {
     own_ = Band{band_.shape, rows, 1, band_.channels, {}};
@@ -134,12 +141,15 @@ class ReferenceBackend : public Backend {
   }
   void mean_radiance(int ref, RowRange rows, const StripMap<float>& disparity,
                      StripMap<Radiance>& radiance) override {
-    reference::mean_radiance(band_, sampler_, ref, rows, setup_.options.score, disparity, radiance);
+    reference::mean_radiance(band_, sampler_, place(ref), rows, setup_.options.score, disparity,
+                             radiance);
   }
   void propagation(int ref, RowRange rows, const StripMap<float>& disparity,
                    const StripMap<float>& confidence, const StripMap<Radiance>& radiance,
                    RowRange state_rows, PackedEstimate* estimates) override {
-    reference::propagation(band_, sampler_, ref, rows, active_views_,
+    std::vector<int> active;
+    for (const int view : active_views_) active.push_back(places_[view]);
+    reference::propagation(band_, sampler_, place(ref), rows, active,
                            setup_.options.propagation.tolerance, disparity, confidence, radiance,
                            state_rows, estimates);
   }
@@ -148,13 +158,14 @@ class ReferenceBackend : public Backend {
   }
 
  private:
+  int place(int view) const { return place_of(places_, view); }
   /// Where the pixels of the reference view are.
   struct OwnPixels {
     const Band& band;
     int view;
   };
   OwnPixels reference_pixels(int ref) const {
-    return own_.data.empty() ? OwnPixels{band_, ref} : OwnPixels{own_, 0};
+    return own_.data.empty() ? OwnPixels{band_, place(ref)} : OwnPixels{own_, 0};
   }
   template <class ScoreOf>
   void score_rays(RowRange rows, const StripMap<std::uint8_t>& todo,
@@ -176,6 +187,7 @@ class ReferenceBackend : public Backend {
   BackendSetup setup_;
   std::vector<float> table_;
   std::vector<int> active_views_;
+  std::vector<int> places_;  ///< of the views in band_
   Band band_;
   Band own_;  ///< replaced pixels of the reference view; empty: those of band_
   Scores raw_scores_, supported_scores_, path_scores_;
@@ -192,5 +204,7 @@ std::unique_ptr<Backend> make_reference_backend(const S& sampler, const BackendS
 
 template std::unique_ptr<Backend> make_reference_backend(const EpiSampler&, const BackendSetup&);
 template std::unique_ptr<Backend> make_reference_backend(const GridSampler&, const BackendSetup&);
+template std::unique_ptr<Backend> make_reference_backend(const UnstructuredSampler&,
+                                                         const BackendSetup&);
 
 }  // namespace gigaray

@@ -14,6 +14,25 @@ namespace gigaray::reference {
 /// Triangle kernels of colour and gradient around `own`, 0 … 1 (docs/method.md).
 float robust_kernel(const Sample& sample, const Sample& own, const ScoreOptions& options);
 
+/// A sample of view `other` with its gradient as the pixels of `ref` see it: turned and scaled by
+/// how the place in `other` changes with the pixel.
+template <RaySampler S>
+Sample seen_from(const S& sampler, int ref, int other, const Ray& ray, Sample sample) {
+  if constexpr (!S::kRaysShiftAlike) {
+    const auto along = [&](double du, double dv) {
+      const Ray before{ray.u - du, ray.v - dv, ray.hypothesis},
+          after{ray.u + du, ray.v + dv, ray.hypothesis};
+      const auto a = sampler.locate(ref, other, before), b = sampler.locate(ref, other, after);
+      if (!a || !b) return 0.0f;
+      return float((b->u - a->u) * sample[3] + (b->v - a->v) * sample[4]);
+    };
+    const float gx = along(0.5, 0), gy = along(0, 0.5);
+    sample[3] = gx;
+    sample[4] = gy;
+  }
+  return sample;
+}
+
 /// Score of a ray with colours `own` under one hypothesis: the mean of the kernels over the views;
 /// -1 when too few see it. parts 1: over the views with bit 0 of their `members`. parts 8: the best
 /// of the means over half-plane i, the views with bit i.
@@ -31,7 +50,7 @@ float robust_score(const Band& band, const S& sampler, int ref, const Ray& ray, 
     if (!there) continue;
     const auto sample = sample_at(band, other, there->u, there->v, options.cubic);
     if (!sample) continue;
-    const float value = robust_kernel(*sample, own, options);
+    const float value = robust_kernel(seen_from(sampler, ref, other, ray, *sample), own, options);
     for (int i = 0; i < parts; ++i) {
       if (!(members[other] >> i & 1)) continue;
       sums[i] += value;

@@ -27,6 +27,14 @@ void unpack_channels(const void* encoded, BandEncoding encoding, const std::vect
   unpack_gradients(band);
 }
 
+void mask_pixels(const std::uint8_t* mask, Band& band) {
+  for (int v = band.rows.begin; v < band.rows.end; ++v)
+    for (int view = 0; view < band.num_views; ++view)
+      for (int u = 0; u < band.shape.width; ++u)
+        if (*mask++ == 0)
+          for (int c = 0; c < 3; ++c) band.plane(view, v, c)[u] = kMaskedColour;
+}
+
 void unpack_gradients(Band& band) {
   if (band.channels < 5) return;
   const int width = band.shape.width;

@@ -10,6 +10,9 @@ namespace gigaray::reference {
 void unpack_channels(const void* encoded, BandEncoding encoding, const std::vector<float>& table,
                      Band& band);
 
+/// Gives the pixels where mask is 0 the colour kMaskedColour. mask: [row][view][u].
+void mask_pixels(const std::uint8_t* mask, Band& band);
+
 /// Fills gx and gy from the colours: half differences of the neighbours' channel means.
 void unpack_gradients(Band& band);
 

@@ -30,11 +30,11 @@ void DepthOptions::check() const {
       throw Error(ErrorCode::kInvalidArgument, text.str() + ": not finite numbers");
     if (disparity->min >= disparity->max)
       throw Error(ErrorCode::kInvalidArgument, text.str() + ": the first must be the smaller one");
-    if (disparity->max - disparity->min < 1e-3)
-      throw Error(ErrorCode::kInvalidArgument, text.str() + ": too narrow to be sampled");
   }
   if (hypotheses != 0) in_range("hypotheses", hypotheses, 2, 4096);
   in_range("hypothesis_step", hypothesis_step, 1e-4, 100.0);
+  in_range("unstructured_step", unstructured_step, 1e-3, 100.0);
+  in_range("most_partners", most_partners, 0, 1000);
   in_range("edge.radius", edge.radius, 1, 16);
   if (std::isnan(edge.threshold))
     throw Error(ErrorCode::kInvalidArgument, "edge.threshold is not a number");

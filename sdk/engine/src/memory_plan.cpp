@@ -39,18 +39,25 @@ struct LevelCost {
   double row_floats = 0;  // bytes of one row in the band buffer
 };
 
+/// n: views in a band. Bands of samplers whose rays go each their own way are there twice, the
+/// second time with the channels of a pixel padded to 4 or 8.
 LevelCost cost_of(const LevelShape& shape, const LightField& light_field,
-                  const DepthOptions& options, double active, bool in_files) {
-  const double n = light_field.num_views();
+                  const DepthOptions& options, double active, double n, bool in_files) {
+  const double all = light_field.num_views();
   const double pixels = double(shape.width) * shape.height;
   const double colour_bytes =
       shape.level == 0 ? 3.0 * light_field.pixels->bit_depth() / 8 : 3.0 * sizeof(float);
   const double kept = sizeof(PackedEstimate) + 1 + (shape.level > 0 ? sizeof(Search) : 0);
   LevelCost cost;
-  cost.stores = pixels * (n * colour_bytes + active * kept);
-  cost.row_floats = n * (options.score.gradient ? 5 : 3) * StripMap<float>::pitch_for(shape.width) *
-                    sizeof(float);
-  cost.band_row = cost.row_floats + n * shape.width * std::max(colour_bytes, 3.0);
+  cost.stores = pixels * (all * colour_bytes + active * kept);
+  if (shape.level == 0 && light_field.pixels->has_mask()) cost.stores += pixels * all;
+  const bool gradient = options.score.gradient;
+  const double planes = n * StripMap<float>::pitch_for(shape.width) * sizeof(float);
+  const double plane_bytes = planes * (gradient ? 5 : 3);
+  const double tap_bytes =
+      light_field.kind == LightFieldKind::kUnstructured ? planes * (gradient ? 8 : 4) : 0;
+  cost.row_floats = std::max(plane_bytes, tap_bytes);
+  cost.band_row = plane_bytes + tap_bytes + n * shape.width * std::max(colour_bytes, 3.0);
   // Rows of the stores that are open beside the band: pixels, those of the next level, estimates.
   if (in_files)
     cost.band_row += shape.width * (n * (colour_bytes + 3.0) + active * sizeof(PackedEstimate));
@@ -86,7 +93,14 @@ class Planner {
         sampler_(make_sampler(light_field)),
         shapes_(level_shapes(light_field.width, light_field.height,
                              options.propagation.fine_to_coarse)),
-        active_(options.views.empty() ? light_field.num_views() : double(options.views.size())) {
+        active_(options.views.empty() ? light_field.num_views() : double(options.views.size())),
+        refs_(options.views.empty() ? all_views(light_field.num_views()) : options.views) {
+    for (const int ref : refs_)
+      std::visit(
+          [&](const auto& s) {
+            band_views_ = std::max(band_views_, double(s.partners(ref).size()));
+          },
+          sampler_);
     const StripNeeds finest = strip_needs(options.support, 0);
     const double row = volume_row_bytes(light_field.width, hypotheses);
     least_volume_ = row * (finest.halo + finest.multiple);
@@ -124,7 +138,7 @@ class Planner {
       LevelPlan level{shape, 0, halo(shape), 0};
       const int held = int(volume / volume_row_bytes(shape.width, hypotheses_)) - needs.halo;
       level.strip_rows = std::max(held / needs.multiple, 1) * needs.multiple;
-      const LevelCost cost = cost_of(shape, light_field_, options_, active_, in_files);
+      const LevelCost cost = cost_of(shape, light_field_, options_, active_, band_views_, in_files);
       const double rows = std::min((limit - fixed - stores) / cost.band_row,
                                    std::floor(kLargestBuffer / cost.row_floats));
       level.band_rows = shape.height;
@@ -153,7 +167,7 @@ class Planner {
   double least_limit() const {
     double peak_band = 0;
     for (const LevelShape& shape : shapes_) {
-      const LevelCost cost = cost_of(shape, light_field_, options_, active_, true);
+      const LevelCost cost = cost_of(shape, light_field_, options_, active_, band_views_, true);
       const int rows = std::min(strip_needs(options_.support, shape.level).multiple, shape.height);
       peak_band = std::max(peak_band, loaded_rows(shape, rows) * cost.band_row);
     }
@@ -164,14 +178,15 @@ class Planner {
   double everything(double volume) const {
     return fixed_bytes(volume) + store_bytes() +
            light_field_.height *
-               cost_of(shapes_.front(), light_field_, options_, active_, false).band_row;
+               cost_of(shapes_.front(), light_field_, options_, active_, band_views_, false)
+                   .band_row;
   }
 
  private:
   double store_bytes() const {
     double stores = 0;
     for (const LevelShape& shape : shapes_)
-      stores += cost_of(shape, light_field_, options_, active_, false).stores;
+      stores += cost_of(shape, light_field_, options_, active_, band_views_, false).stores;
     return stores;
   }
   /// What the windows reach, a row for gradients, two for interpolation taps.
@@ -180,15 +195,23 @@ class Planner {
     return 3 + std::max({options_.edge.radius + 2, needs.halo / 2, options_.winner.median_radius,
                          options_.support.slanted ? kSlopeReach : 0, 3});
   }
-  /// Rows in memory for a band of so many in the middle of the picture.
+  /// Most rows in memory for a band of so many rows.
   int loaded_rows(const LevelShape& shape, int band_rows) const {
-    const int begin = std::max((shape.height - band_rows) / 2, 0);
-    const RowRange core{begin, std::min(begin + band_rows, shape.height)};
+    // Of many bands some are looked at; neighbours need much the same.
+    constexpr int kMostBands = 16;
+    const int bands = (shape.height + band_rows - 1) / band_rows;
+    const int stride = band_rows * ((bands + kMostBands - 1) / kMostBands);
     return std::visit(
         [&](const auto& s) {
-          return s.at_level(shape.level)
-              .rows_needed(grown(core, halo(shape), shape.height), hypotheses_, shape.height)
-              .size();
+          const auto level = s.at_level(shape.level);
+          int most = 0;
+          for (const int ref : refs_)
+            for (int begin = 0; begin < shape.height; begin += stride) {
+              const RowRange band{begin, std::min(begin + band_rows, shape.height)};
+              const RowRange own = grown(band, halo(shape), shape.height);
+              most = std::max(most, level.rows_needed(ref, own, hypotheses_, shape.height).size());
+            }
+          return most;
         },
         sampler_);
   }
@@ -198,7 +221,9 @@ class Planner {
   const HypothesisRange hypotheses_;
   const AnySampler sampler_;
   const std::vector<LevelShape> shapes_;
-  const double active_;  ///< views that get depth
+  const double active_;          ///< views that get depth
+  const std::vector<int> refs_;  ///< the same, their indices
+  double band_views_ = 0;        ///< most in a band
   double least_volume_ = 0, all_rows_ = 0;
 };
 

@@ -30,6 +30,9 @@ Pipeline::Pipeline(const LightField& light_field, const DepthOptions& options,
     if (options.views.empty() ||
         std::find(options.views.begin(), options.views.end(), view) != options.views.end())
       active_.push_back(view);
+  for (int view = 0; view < light_field.num_views(); ++view)
+    partners_.push_back(
+        std::visit([&](const auto& sampler) { return sampler.partners(view); }, sampler_));
 }
 
 void Pipeline::run() {
@@ -62,7 +65,8 @@ void Pipeline::report(double done) {
 
 void Pipeline::decode() {
   const StageTimer timer(seconds_, "decode");
-  const int width = light_field_.width, height = light_field_.height;
+  const int height = light_field_.height;
+  const std::size_t width = light_field_.width;
   const std::size_t value_bytes = light_field_.pixels->bit_depth() / 8;
   const std::size_t line = std::size_t(width) * 3;
   RowStore& pixels = levels_[0].pixels;
@@ -76,7 +80,9 @@ void Pipeline::decode() {
       for (int view; (view = next++) < light_field_.num_views();) {
         if (control_.cancelled()) break;
         if (is_caller) control_.progress("decode", done, light_field_.num_views());
-        const Image<std::uint16_t> picture = read_view(light_field_, view);
+        Image<std::uint16_t> picture = read_view(light_field_, view);
+        if (const auto mask = take_mask(picture))
+          for (int v = 0; v < height; ++v) mask_.write(v, view * width, width, mask->row(v));
         for (int v = 0; v < height; ++v) {
           const void* row = picture.row(v);
           if (value_bytes == 1) {
@@ -112,6 +118,7 @@ void Pipeline::begin_level(int level) {
     state.pixels =
         make_store(shape.height, views * width * 3 * (light_field_.pixels->bit_depth() / 8));
     levels_.push_back(std::move(state));
+    if (light_field_.pixels->has_mask()) mask_ = make_store(shape.height, views * width);
     decode();
   }
   LevelState& state = levels_[level];
@@ -126,7 +133,8 @@ void Pipeline::begin_level(int level) {
     levels_.push_back(std::move(next));
   }
   backend_.begin_level(shape);
-  loaded_band_ = {};
+  loaded_band_ = loaded_rows_ = {};
+  loaded_views_.clear();
 }
 
 std::vector<RowRange> Pipeline::bands() const {
@@ -137,69 +145,130 @@ std::vector<RowRange> Pipeline::bands() const {
   return bands;
 }
 
-RowRange Pipeline::rows_needed(RowRange rows) const {
+RowRange Pipeline::rows_needed(int view, RowRange rows) const {
   return std::visit(
       [&](const auto& sampler) {
-        return sampler.at_level(level_).rows_needed(rows, hypotheses_,
+        return sampler.at_level(level_).rows_needed(view, rows, hypotheses_,
                                                     plan_.levels[level_].shape.height);
       },
       sampler_);
 }
 
-void Pipeline::load_band(RowRange band) {
-  control_.throw_if_cancelled();
+void Pipeline::load_band(int view, RowRange band) {
   const LevelPlan& plan = plan_.levels[level_];
   const RowRange own_rows = grown(band, plan.halo, plan.shape.height);
-  if (band == loaded_band_) return;
+  if (band == loaded_band_ && partners_[view] == loaded_views_) return;
+  load_rows(partners_[view], rows_needed(view, own_rows), true);
+  loaded_band_ = band;
+  if (means_) backend_.replace_reference(own_rows, *means_);
+}
+
+void Pipeline::load_rows(const std::vector<int>& views, RowRange rows, bool masked) {
+  control_.throw_if_cancelled();
+  masked = masked && !mask_.empty();
+  if (rows == loaded_rows_ && views == loaded_views_ && masked == loaded_masked_) return;
   const StageTimer timer(seconds_, "load");
-  const RowRange rows = rows_needed(own_rows);
+  loaded_band_ = {};
+  const int width = plan_.levels[level_].shape.width;
+  const std::size_t all = light_field_.views.size(), count = views.size();
   const BandEncoding encoding = level_ > 0                              ? BandEncoding::kFloat
                                 : light_field_.pixels->bit_depth() == 8 ? BandEncoding::kBits8
                                                                         : BandEncoding::kBits16;
-  backend_.load_band(rows, levels_[level_].pixels.open(rows, band_scratch_), encoding);
-  loaded_band_ = band;
-  if (means_) backend_.replace_reference(own_rows, *means_);
+  RowStore& pixels = levels_[level_].pixels;
+  const std::size_t view_bytes = pixels.row_bytes() / all;
+  const std::byte* encoded = nullptr;
+  if (count == all) {
+    encoded = pixels.open(rows, band_scratch_);
+  } else {
+    band_scratch_.at_least(rows.size() * count * view_bytes);
+    std::byte* out = band_scratch_.data();
+    for (int v = rows.begin; v < rows.end; ++v)
+      for (const int view : views) {
+        pixels.read(v, view * view_bytes, view_bytes, out);
+        out += view_bytes;
+      }
+    encoded = band_scratch_.data();
+  }
+  const std::uint8_t* mask = nullptr;
+  if (masked) {
+    mask_scratch_.at_least(rows.size() * count * width);
+    auto* out = reinterpret_cast<std::uint8_t*>(mask_scratch_.data());
+    mask = out;
+    std::vector<std::uint8_t> line(light_field_.width);
+    for (int v = rows.begin; v < rows.end; ++v)
+      for (const int view : views) {
+        mask_.read(v << level_, view * line.size(), line.size(), line.data());
+        for (int u = 0; u < width; ++u) *out++ = line[std::size_t(u) << level_];
+      }
+  }
+  backend_.load_band(rows, views, encoded, encoding, mask);
+  loaded_rows_ = rows;
+  loaded_views_ = views;
+  loaded_masked_ = masked;
+}
+
+std::vector<std::vector<int>> Pipeline::view_groups() const {
+  std::size_t most = 0;
+  for (const std::vector<int>& partners : partners_) most = std::max(most, partners.size());
+  std::vector<std::vector<int>> groups;
+  for (int view = 0; view < light_field_.num_views(); ++view) {
+    if (groups.empty() || groups.back().size() == most) groups.emplace_back();
+    groups.back().push_back(view);
+  }
+  return groups;
 }
 
 void Pipeline::find_edges_and_downsample() {
   LevelState& state = levels_[level_];
   if (state.mask.empty() && is_last_level()) return;
+  const LevelPlan& plan = plan_.levels[level_];
+  for (const RowRange band : bands())
+    for (const std::vector<int>& group : view_groups()) {
+      RowRange rows = grown(band, plan.halo, plan.shape.height);
+      // All views in one group: what is loaded serves the rays of the first view too.
+      if (group.size() == light_field_.views.size()) rows = rows_needed(active_.front(), rows);
+      load_rows(group, rows, false);
+      if (!state.mask.empty()) find_edges(group, band);
+      if (!is_last_level()) downsample(group, band);
+    }
+}
+
+void Pipeline::find_edges(const std::vector<int>& views, RowRange band) {
+  const StageTimer timer(seconds_, "edges");
+  LevelState& state = levels_[level_];
   const int width = state.shape.width, height = state.shape.height;
-  AlignedBytes scratch;
-  for (const RowRange band : bands()) {
-    load_band(band);
-    if (!state.mask.empty()) {
-      const StageTimer timer(seconds_, "edges");
-      for (std::size_t i = 0; i < active_.size(); ++i) {
-        const RowRange around = grown(band, options_.edge.opening ? 2 : 0, height);
-        StripMap<float> confidence(width, around);
-        backend_.edge_confidence(active_[i], around, confidence);
-        StripMap<std::uint8_t> mask(width, around);
-        for (int v = around.begin; v < around.end; ++v)
-          for (int u = 0; u < width; ++u)
-            mask.row(v)[u] = confidence.row(v)[u] > options_.edge.threshold;
-        if (options_.edge.opening) mask = open_mask(mask, band, height);
-        for (int v = band.begin; v < band.end; ++v)
-          state.mask.write(v, i * width, width, mask.row(v));
-      }
-    }
-    if (!is_last_level()) {
-      const StageTimer timer(seconds_, "downsample");
-      LevelState& next = levels_[level_ + 1];
-      const RowRange small{(band.begin + 1) / 2, (band.end + 1) / 2};
-      if (small.size() == 0) continue;
-      scratch.at_least(small.size() * next.pixels.row_bytes());
-      backend_.downsample(small, reinterpret_cast<float*>(scratch.data()));
-      for (int v = small.begin; v < small.end; ++v)
-        next.pixels.write(v, 0, next.pixels.row_bytes(),
-                          scratch.data() + std::size_t(v - small.begin) * next.pixels.row_bytes());
-    }
+  for (std::size_t i = 0; i < active_.size(); ++i) {
+    if (!std::binary_search(views.begin(), views.end(), active_[i])) continue;
+    const RowRange around = grown(band, options_.edge.opening ? 2 : 0, height);
+    StripMap<float> confidence(width, around);
+    backend_.edge_confidence(active_[i], around, confidence);
+    StripMap<std::uint8_t> mask(width, around);
+    for (int v = around.begin; v < around.end; ++v)
+      for (int u = 0; u < width; ++u)
+        mask.row(v)[u] = confidence.row(v)[u] > options_.edge.threshold;
+    if (options_.edge.opening) mask = open_mask(mask, band, height);
+    for (int v = band.begin; v < band.end; ++v) state.mask.write(v, i * width, width, mask.row(v));
   }
+}
+
+void Pipeline::downsample(const std::vector<int>& views, RowRange band) {
+  const StageTimer timer(seconds_, "downsample");
+  LevelState& next = levels_[level_ + 1];
+  const RowRange small{(band.begin + 1) / 2, (band.end + 1) / 2};
+  if (small.size() == 0) return;
+  const std::size_t view_bytes = next.pixels.row_bytes() / light_field_.views.size();
+  AlignedBytes scratch(small.size() * views.size() * view_bytes);
+  backend_.downsample(small, reinterpret_cast<float*>(scratch.data()));
+  // A group is a run of views: its rows are one piece.
+  for (int v = small.begin; v < small.end; ++v)
+    next.pixels.write(v, views.front() * view_bytes, views.size() * view_bytes,
+                      scratch.data() + (v - small.begin) * views.size() * view_bytes);
 }
 
 // ---- Views --------------------------------------------------------------------------------------
 
 bool Pipeline::find_todo(int active_idx, ViewMaps& maps) {
+  if (partners_[active_[active_idx]].size() < 2) return false;  // nothing to compare with
   const StageTimer timer(seconds_, "select");
   LevelState& state = levels_[level_];
   const int width = state.shape.width, height = state.shape.height;
@@ -225,14 +294,17 @@ bool Pipeline::find_todo(int active_idx, ViewMaps& maps) {
   const bool cracked = level_ == 0 && any_known && options_.propagation.crack_width > 0;
   if (cracked) fill_cracks(active_idx, maps);
 
-  std::vector<std::uint8_t> mask(width, 1);
+  std::vector<std::uint8_t> mask(width, 1), shown(mask_.empty() ? 0 : light_field_.width);
   std::vector<Search> search(width);
   for (int v = 0; v < height; ++v) {
+    if (!shown.empty())
+      mask_.read(v << level_, active_[active_idx] * shown.size(), shown.size(), shown.data());
     if (!state.mask.empty()) state.mask.read(v, at, width, mask.data());
     if (level_ > 0)
       state.search.read(v, at * sizeof(Search), width * sizeof(Search), search.data());
     for (int u = 0; u < width; ++u) {
       if (!std::isnan(maps.disparity.row(v)[u]) || !mask[u]) continue;
+      if (!shown.empty() && !shown[std::size_t(u) << level_]) continue;
       if (level_ > 0 && std::isnan(search[u].low)) continue;
       maps.todo.row(v)[u] = 1;
       maps.bounds.row(v)[u] = level_ > 0 ? bounds_of(search[u], hypotheses_) : full;
@@ -266,7 +338,7 @@ void Pipeline::accept_view(int active_idx, ViewMaps& maps) {
       is_last_level() ? -std::numeric_limits<float>::infinity() : options_.winner.min_confidence;
   for (const RowRange band : bands()) {
     if (!any_set(maps.todo, band)) continue;
-    load_band(band);
+    load_band(view, band);
     StripMap<float> accepted(width, band);
     if (options_.winner.median_radius > 0) {
       const StageTimer timer(seconds_, "median");
@@ -291,7 +363,7 @@ void Pipeline::accept_view(int active_idx, ViewMaps& maps) {
       for (int u = 0; u < width; ++u)
         if (const float h = accepted.row(v)[u]; !std::isnan(h))
           tuples_.append({h, maps.confidence.row(v)[u], radiance.row(v)[u], view, u, v, level_});
-    const RowRange reached = rows_needed(band);
+    const RowRange reached = rows_needed(view, band);
     std::byte* estimates = state.estimates.open(reached, state_scratch_);
     backend_.propagation(view, band, accepted, maps.confidence, radiance, reached,
                          reinterpret_cast<PackedEstimate*>(estimates));

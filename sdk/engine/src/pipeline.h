@@ -37,6 +37,7 @@ class Pipeline {
   void run();
 
   std::vector<LevelState>& levels() { return levels_; }
+  RowStore& mask() { return mask_; }
   const std::vector<int>& active_views() const { return active_; }
   TupleStore& tuples() { return tuples_; }
   std::map<std::string, double>& seconds() { return seconds_; }
@@ -64,6 +65,8 @@ class Pipeline {
   void decode();
   void begin_level(int level);
   void find_edges_and_downsample();
+  void find_edges(const std::vector<int>& views, RowRange band);
+  void downsample(const std::vector<int>& views, RowRange band);
   bool find_todo(int active_idx, ViewMaps& maps);
   void fill_cracks(int active_idx, ViewMaps& maps);
   void score_view(int view, ViewMaps& maps);
@@ -82,8 +85,13 @@ class Pipeline {
   void coarsen();
 
   std::vector<RowRange> bands() const;
-  void load_band(RowRange band);
-  RowRange rows_needed(RowRange rows) const;
+  /// What the rays of some rows of a view need, and the rows around them.
+  void load_band(int view, RowRange band);
+  /// Some rows of some views, as they are.
+  void load_rows(const std::vector<int>& views, RowRange rows, bool masked);
+  RowRange rows_needed(int view, RowRange rows) const;
+  /// The views in groups that a band holds, for steps that look along no ray.
+  std::vector<std::vector<int>> view_groups() const;
   bool is_last_level() const { return level_ + 1 == int(plan_.levels.size()); }
   RowStore make_store(int rows, std::size_t row_bytes) const {
     return RowStore(rows, row_bytes, plan_.work_folder);
@@ -103,11 +111,17 @@ class Pipeline {
   TupleStore tuples_;
   std::map<std::string, double> seconds_;
 
+  RowStore mask_;  ///< level 0 [v][view][u]: 0 where a pixel shows nothing; empty: all do
+  std::vector<std::vector<int>> partners_;  ///< of every view
+
   int level_ = 0;
-  RowRange loaded_band_;
+  RowRange loaded_band_;  ///< that the loaded rows are for; empty: none
+  RowRange loaded_rows_;
+  std::vector<int> loaded_views_;
+  bool loaded_masked_ = false;
   const StripMap<float>* means_ = nullptr;  ///< stand for the pixels of the view that is worked on
   RowRange scored_rows_;  ///< what the backend has raw scores of, for the view that is worked on
-  AlignedBytes band_scratch_, state_scratch_;
+  AlignedBytes band_scratch_, mask_scratch_, state_scratch_;
 };
 
 }  // namespace gigaray

@@ -41,7 +41,7 @@ void Pipeline::score_view(int view, ViewMaps& maps) {
   pass.scanline = finest && options_.support.scanline;
   // Where the last look has to score anew anyway, or takes very many views, a few do for the first.
   const bool few_first = again && options_.score.gradient &&
-                         (options_.score.ray_mean || light_field_.num_views() > kManyViews);
+                         (options_.score.ray_mean || int(partners_[view].size()) > kManyViews);
   if (few_first) pass.views = ScoreViews::kFirst;
   score_strips(view, pass, maps);
   if (!again) return;
@@ -84,7 +84,7 @@ void Pipeline::score_strips(int view, const ScorePass& pass, ViewMaps& maps) {
   const int strip_rows = plan_.levels[level_].strip_rows;
   for (const RowRange band : bands()) {
     if (!any_set(pass.todo, band)) continue;
-    load_band(band);
+    load_band(view, band);
     for (int v = band.begin; v < band.end; v += strip_rows) {
       const RowRange strip{v, std::min(v + strip_rows, band.end)};
       control_.throw_if_cancelled();
@@ -180,7 +180,7 @@ StripMap<float> Pipeline::smooth_disparity(int view, const ViewMaps& maps) {
   const LevelShape& shape = levels_[level_].shape;
   StripMap<float> smooth(shape.width, {0, shape.height});
   for (const RowRange band : bands()) {
-    load_band(band);
+    load_band(view, band);
     const StageTimer timer(seconds_, "median");
     backend_.bilateral_median(view, band, options_.winner.median_radius,
                               options_.winner.median_tolerance, maps.disparity, smooth);
@@ -197,7 +197,7 @@ StripMap<float> Pipeline::ray_means(int view, const ScorePass& pass,
       if (!pass.score_todo.row(v)[u]) wanted.row(v)[u] = kNoEstimate;
   StripMap<float> means(shape.width, {0, shape.height * backend_.channels()});
   for (const RowRange band : bands()) {
-    load_band(band);
+    load_band(view, band);
     const StageTimer timer(seconds_, "ray means");
     backend_.ray_mean(view, band, wanted, means);
   }
@@ -218,7 +218,7 @@ StripMap<Slope> Pipeline::fit_slopes(int view, const StripMap<std::uint8_t>& tod
   StripMap<Slope> slopes(shape.width, {0, shape.height});
   for (const RowRange band : bands()) {
     if (!any_set(todo, band)) continue;
-    load_band(band);
+    load_band(view, band);
     const StageTimer timer(seconds_, "slopes");
     backend_.slope_fit(view, band, smooth, slopes);
   }

@@ -10,6 +10,7 @@
 #include "gigaray/calibration.h"
 #include "gigaray/scene_estimates.h"
 #include "gigaray/smoothing.h"
+#include "inverse_depths.h"
 #include "pipeline.h"
 #include "stage_timer.h"
 
@@ -22,6 +23,8 @@ HypothesisRange sample_range(const DepthOptions& options, const LightField& ligh
   const double farthest = std::max(std::abs(range.min), std::abs(range.max));
   std::ostringstream text;
   text << "disparity range " << range.min << " " << range.max;
+  if (range.max - range.min < 1e-3)
+    throw Error(ErrorCode::kInvalidArgument, text.str() + ": too narrow to be sampled");
   if (farthest >= light_field.width)
     throw Error(ErrorCode::kInvalidArgument, text.str() + ": wider than the pictures (" +
                                                  std::to_string(light_field.width) +
@@ -64,6 +67,39 @@ void adapt_to_noise(Prepared& run, const RunControl& control) {
   apply_noise(noise, run.options);
 }
 
+/// Range and hypotheses of parallel views.
+void prepare_range(Prepared& run, const RunControl& control, bool read_pixels) {
+  if (!run.options.disparity) run.options.disparity = run.light_field.declared_range;
+  if (!run.options.disparity) {
+    // A guess of usual size stands in where no pixel may be read: it moves the forecast a little.
+    run.options.disparity = read_pixels ? estimate_disparity_range(run.light_field, control).range
+                                        : DisparityRange{-2, 2};
+    if (read_pixels) {
+      std::ostringstream text;
+      text << "disparity range " << run.options.disparity->min << " … "
+           << run.options.disparity->max << " px per view step, estimated from the pictures";
+      control.message(text.str());
+    }
+  }
+  run.hypotheses = sample_range(run.options, run.light_field);
+}
+
+/// The same of unstructured views: each searches its own range of inverse depths.
+void prepare_unstructured(Prepared& run, const RunControl& control, bool read_pixels) {
+  run.light_field.most_partners = run.options.most_partners;
+  set_inverse_depths(run.light_field, run.options, control, read_pixels);
+  const InverseDepthRange all = all_inverse_depths(run.light_field.cameras);
+  run.options.disparity = DisparityRange{all.min, all.max};
+  check_partners(
+      run.light_field,
+      run.options.views.empty() ? all_views(run.light_field.num_views()) : run.options.views,
+      control);
+  run.options.score.cubic = false;
+  const int count = run.options.hypotheses > 0 ? run.options.hypotheses
+                                               : count_hypotheses(run.light_field, run.options);
+  run.hypotheses = {0, 1, count};
+}
+
 /// Checks the input and fills in what the options leave to the data.
 Prepared prepare(const LightField& light_field, const DepthOptions& wanted,
                  const RunControl& control, bool read_pixels) {
@@ -75,25 +111,17 @@ Prepared prepare(const LightField& light_field, const DepthOptions& wanted,
       throw Error(ErrorCode::kInvalidArgument, "view " + std::to_string(view) +
                                                    ": there are views 0 … " +
                                                    std::to_string(light_field.num_views() - 1));
-  if (!run.options.disparity) run.options.disparity = light_field.declared_range;
-  if (!run.options.disparity) {
-    // A guess of usual size stands in where no pixel may be read: it moves the forecast a little.
-    run.options.disparity =
-        read_pixels ? estimate_disparity_range(light_field, control).range : DisparityRange{-2, 2};
-    if (read_pixels) {
-      std::ostringstream text;
-      text << "disparity range " << run.options.disparity->min << " … "
-           << run.options.disparity->max << " px per view step, estimated from the pictures";
-      control.message(text.str());
-    }
+  if (light_field.kind == LightFieldKind::kUnstructured) {
+    prepare_unstructured(run, control, read_pixels);
+  } else {
+    prepare_range(run, control, read_pixels);
   }
-  run.hypotheses = sample_range(run.options, light_field);
   run.options.hypotheses = run.hypotheses.count;
   if (!read_pixels) return run;
   if (run.options.score.from_noise)
     adapt_to_noise(run, control);
   else if (run.options.score.smoothing > 0)
-    run.light_field = smoothed(light_field, run.options.score.smoothing);
+    run.light_field = smoothed(run.light_field, run.options.score.smoothing);
   return run;
 }
 
@@ -114,7 +142,9 @@ std::unique_ptr<Backend> make_backend(const Prepared& run, const BackendChoice& 
 
 struct Reconstruction::Impl {
   DepthOptions options;
-  HypothesisRange hypotheses;
+  HypothesisRange hypotheses;   ///< as the engine steps through them
+  std::vector<Camera> cameras;  ///< unstructured: with the range of each
+  RowStore mask;                ///< Pipeline::mask()
   MemoryPlan plan;
   std::unique_ptr<Backend> backend;
   std::string device;
@@ -123,7 +153,29 @@ struct Reconstruction::Impl {
   std::vector<LevelState> levels;
   TupleStore tuples{""};
   std::map<std::string, double> seconds;
+
+  /// What a hypothesis of the engine is to the caller.
+  float disparity_of(int view, float hypothesis) const {
+    if (cameras.empty()) return hypothesis;
+    const InverseDepthRange& range = *cameras[view].inverse_depth;
+    return float(range.min + hypothesis * (range.max - range.min));
+  }
+  /// Takes estimates away where the view shows nothing of the scene.
+  void leave_out_masked(int view, ViewDepth& depth) const;
 };
+
+void Reconstruction::Impl::leave_out_masked(int view, ViewDepth& depth) const {
+  if (mask.empty()) return;
+  std::vector<std::uint8_t> shown(depth.disparity.width());
+  for (int v = 0; v < depth.disparity.height(); ++v) {
+    mask.read(v, std::size_t(view) * shown.size(), shown.size(), shown.data());
+    for (int u = 0; u < depth.disparity.width(); ++u) {
+      if (shown[u]) continue;
+      depth.disparity(u, v) = depth.confidence(u, v) = kNoEstimate;
+      depth.level(u, v) = -1;
+    }
+  }
+}
 
 Reconstruction::Reconstruction(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 Reconstruction::Reconstruction(Reconstruction&&) noexcept = default;
@@ -131,7 +183,12 @@ Reconstruction& Reconstruction::operator=(Reconstruction&&) noexcept = default;
 Reconstruction::~Reconstruction() = default;
 
 const DepthOptions& Reconstruction::options() const { return impl_->options; }
-const HypothesisRange& Reconstruction::hypotheses() const { return impl_->hypotheses; }
+HypothesisRange Reconstruction::hypotheses() const {
+  if (impl_->cameras.empty()) return impl_->hypotheses;
+  const InverseDepthRange all = all_inverse_depths(impl_->cameras);
+  return {all.min, all.max, impl_->hypotheses.count};
+}
+const std::vector<Camera>& Reconstruction::cameras() const { return impl_->cameras; }
 const std::vector<int>& Reconstruction::views() const { return impl_->views; }
 int Reconstruction::num_levels() const { return int(impl_->levels.size()); }
 const std::string& Reconstruction::device() const { return impl_->device; }
@@ -139,7 +196,10 @@ const std::map<std::string, double>& Reconstruction::seconds() const { return im
 const Forecast& Reconstruction::forecast() const { return impl_->plan.forecast; }
 std::size_t Reconstruction::num_tuples() const { return impl_->tuples.size(); }
 void Reconstruction::for_each_tuple(const std::function<void(const RayTuple&)>& visit) const {
-  impl_->tuples.for_each(visit);
+  impl_->tuples.for_each([&](RayTuple tuple) {
+    tuple.hypothesis = impl_->disparity_of(tuple.view, tuple.hypothesis);
+    visit(tuple);
+  });
 }
 
 ViewDepth Reconstruction::view(int view_idx) {
@@ -180,6 +240,8 @@ ViewDepth Reconstruction::view(int view_idx) {
   if (impl_->options.winner.calibrated)
     for (float& confidence : result.confidence) confidence = calibrated_confidence(confidence);
 
+  impl_->leave_out_masked(view_idx, result);
+  for (float& value : result.disparity) value = impl_->disparity_of(view_idx, value);
   const int radius = impl_->options.propagation.final_median_radius;
   if (radius == 0) return result;
   const int width = result.disparity.width(), height = result.disparity.height();
@@ -190,6 +252,7 @@ ViewDepth Reconstruction::view(int view_idx) {
   impl_->backend->bilateral_median(view_idx, all, radius, std::numeric_limits<float>::infinity(),
                                    in, out);
   for (int v = 0; v < height; ++v) std::copy_n(out.row(v), width, result.disparity.row(v));
+  impl_->leave_out_masked(view_idx, result);
   return result;
 }
 
@@ -209,13 +272,15 @@ Reconstruction reconstruct(const LightField& light_field, const DepthOptions& op
     seen = run.light_field;
     impl->options = run.options;
     impl->hypotheses = run.hypotheses;
-    impl->plan = plan_memory(light_field, run.options, run.hypotheses);
+    impl->cameras = seen.cameras;
+    impl->plan = plan_memory(seen, run.options, run.hypotheses);
     impl->backend = make_backend(run, backend);
   }
   impl->device = impl->backend->name() + ": " + impl->backend->description();
   Pipeline pipeline(seen, impl->options, impl->hypotheses, impl->plan, *impl->backend, control);
   pipeline.run();
   impl->levels = std::move(pipeline.levels());
+  impl->mask = std::move(pipeline.mask());
   impl->active = pipeline.active_views();
   impl->views = impl->active;
   std::sort(impl->views.begin(), impl->views.end());
@@ -226,7 +291,7 @@ Reconstruction reconstruct(const LightField& light_field, const DepthOptions& op
 
 Forecast forecast(const LightField& light_field, const DepthOptions& options) {
   const Prepared run = prepare(light_field, options, RunControl{}, false);
-  return plan_memory(light_field, run.options, run.hypotheses).forecast;
+  return plan_memory(run.light_field, run.options, run.hypotheses).forecast;
 }
 
 ScoreCurve probe(const LightField& light_field, const DepthOptions& options,
@@ -241,7 +306,9 @@ ScoreCurve probe(const LightField& light_field, const DepthOptions& options,
                                                  std::to_string(height));
   const Prepared run = prepare(light_field, options, control, true);
   const auto backend = make_backend(run, choice);
-  const AnySampler sampler = make_sampler(light_field);
+  const AnySampler sampler = make_sampler(run.light_field);
+  const std::vector<int> partners =
+      std::visit([&](const auto& s) { return s.partners(view_idx); }, sampler);
 
   // The rows that the pixel's window reaches in any view, all views.
   constexpr int kTaps = 3;  // interpolation and gradients
@@ -249,25 +316,30 @@ ScoreCurve probe(const LightField& light_field, const DepthOptions& options,
   const RowRange strip = grown({v, v + 1}, radius, height);
   const RowRange rows = std::visit(
       [&](const auto& s) {
-        return s.rows_needed(grown(strip, kTaps, height), run.hypotheses, height);
+        return s.rows_needed(view_idx, grown(strip, kTaps, height), run.hypotheses, height);
       },
       sampler);
-  const std::size_t line = std::size_t(width) * 3, views = light_field.views.size();
-  std::vector<std::uint16_t> encoded(rows.size() * views * line);
-  for (std::size_t view = 0; view < views; ++view) {
-    control.progress("decode", double(view), double(views));
-    const Image<std::uint16_t> picture = read_view(run.light_field, int(view));
-    for (int y = rows.begin; y < rows.end; ++y)
-      std::copy_n(picture.row(y), line,
-                  encoded.begin() + (std::size_t(y - rows.begin) * views + view) * line);
+  const std::size_t line = std::size_t(width) * 3, loaded = partners.size();
+  std::vector<std::uint16_t> encoded(rows.size() * loaded * line);
+  std::vector<std::uint8_t> mask(light_field.pixels->has_mask() ? encoded.size() / 3 : 0);
+  for (std::size_t i = 0; i < loaded; ++i) {
+    control.progress("decode", double(i), double(loaded));
+    Image<std::uint16_t> picture = read_view(run.light_field, partners[i]);
+    const auto shown = take_mask(picture);
+    for (int y = rows.begin; y < rows.end; ++y) {
+      const std::size_t at = std::size_t(y - rows.begin) * loaded + i;
+      std::copy_n(picture.row(y), line, encoded.begin() + at * line);
+      if (shown) std::copy_n(shown->row(y), width, mask.begin() + at * width);
+    }
   }
   std::vector<std::uint8_t> bytes;
   if (light_field.pixels->bit_depth() == 8) bytes.assign(encoded.begin(), encoded.end());
   backend->begin_level({0, width, height});
+  const std::uint8_t* shown = mask.empty() ? nullptr : mask.data();
   if (bytes.empty())
-    backend->load_band(rows, encoded.data(), BandEncoding::kBits16);
+    backend->load_band(rows, partners, encoded.data(), BandEncoding::kBits16, shown);
   else
-    backend->load_band(rows, bytes.data(), BandEncoding::kBits8);
+    backend->load_band(rows, partners, bytes.data(), BandEncoding::kBits8, shown);
 
   const HypothesisBounds full{0, std::uint16_t(run.hypotheses.count - 1)};
   StripMap<std::uint8_t> todo(width, strip);
@@ -288,25 +360,32 @@ ScoreCurve probe(const LightField& light_field, const DepthOptions& options,
 
   ScoreCurve curve;
   curve.scores = backend->scores_at(u, v);
-  curve.hypotheses = run.hypotheses;
-  curve.disparity = disparity.row(v)[u];
+  const float winner = disparity.row(v)[u];
   curve.confidence = contrast.row(v)[u];
   const float most = float((1 << light_field.pixels->bit_depth()) - 1);
-  for (std::size_t view = 0; view < views; ++view) {
+  const Radiance unseen{kNoEstimate, kNoEstimate, kNoEstimate};
+  curve.samples.assign(light_field.views.size(), unseen);
+  for (std::size_t i = 0; i < loaded; ++i) {
     const auto there = std::visit(
         [&](const auto& s) {
-          return s.locate(view_idx, int(view), Ray{double(u), double(v), curve.disparity});
+          return s.locate(view_idx, partners[i], Ray{double(u), double(v), winner});
         },
         sampler);
-    Radiance seen{kNoEstimate, kNoEstimate, kNoEstimate};
-    if (there && there->u >= 0 && there->u <= width - 1 && there->v >= 0 &&
-        there->v <= height - 1) {
-      const std::size_t x = std::size_t(std::lround(there->u)),
-                        y = std::size_t(std::lround(there->v));
-      const std::uint16_t* pixel = &encoded[((y - rows.begin) * views + view) * line + 3 * x];
-      seen = {pixel[0] / most, pixel[1] / most, pixel[2] / most};
-    }
-    curve.samples.push_back(seen);
+    if (!there ||
+        !(there->u >= 0 && there->u <= width - 1 && there->v >= 0 && there->v <= height - 1))
+      continue;
+    const std::size_t x = std::size_t(std::lround(there->u)),
+                      y = std::size_t(std::lround(there->v));
+    const std::uint16_t* pixel = &encoded[((y - rows.begin) * loaded + i) * line + 3 * x];
+    curve.samples[partners[i]] = {pixel[0] / most, pixel[1] / most, pixel[2] / most};
+  }
+  // In the caller's unit.
+  curve.hypotheses = run.hypotheses;
+  curve.disparity = winner;
+  if (!run.light_field.cameras.empty()) {
+    const InverseDepthRange& range = *run.light_field.cameras[view_idx].inverse_depth;
+    curve.hypotheses = {range.min, range.max, run.hypotheses.count};
+    curve.disparity = float(range.min + winner * (range.max - range.min));
   }
   return curve;
 }

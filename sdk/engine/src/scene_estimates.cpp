@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "gigaray/samplers/any_sampler.h"
 #include "reference/density_score.h"
@@ -27,6 +28,7 @@ LightField subset(const LightField& light_field, const std::vector<int>& views) 
       return all_->read(views_.at(view_idx));
     }
     int bit_depth() const override { return all_->bit_depth(); }
+    bool has_mask() const override { return all_->has_mask(); }
 
    private:
     std::shared_ptr<const PixelSource> all_;
@@ -34,20 +36,26 @@ LightField subset(const LightField& light_field, const std::vector<int>& views) 
   };
   LightField some = light_field;
   some.views.clear();
-  for (const int view : views) some.views.push_back(light_field.views[view]);
+  some.cameras.clear();
+  for (const int view : views) {
+    some.views.push_back(light_field.views[view]);
+    if (!light_field.cameras.empty()) some.cameras.push_back(light_field.cameras[view]);
+  }
   some.pixels = std::make_shared<Subset>(light_field.pixels, views);
   return some;
 }
 
 /// A view as a band of its own, encoded RGB (and gradients), all rows.
 Band view_band(const LightField& light_field, int view, int channels) {
-  const Image<std::uint16_t> picture = read_view(light_field, view);
+  Image<std::uint16_t> picture = read_view(light_field, view);
+  const auto mask = take_mask(picture);
   Band band{{0, picture.width(), picture.height()}, {0, picture.height()}, 1, channels, {}};
   band.data.resize(picture.size() / 3 * channels);
   std::vector<float> table(std::size_t(1) << light_field.pixels->bit_depth());
   for (std::size_t i = 0; i < table.size(); ++i) table[i] = float(i) / float(table.size() - 1);
   // Values above 8 bits or not: the decoder always gives 16-bit integers.
   reference::unpack_channels(picture.data(), BandEncoding::kBits16, table, band);
+  if (mask) reference::mask_pixels(mask->data(), band);
   return band;
 }
 
@@ -78,6 +86,8 @@ struct PixelMatch {
 constexpr int kSmallWidth = 320;  // px; the search runs on pictures no wider than this
 constexpr int kMostViews = 9;     // around the centre
 constexpr int kMostPixels = 3000;
+/// More is the border of a mask.
+constexpr float kMostEdge = 100;
 constexpr float kReliableScore = 0.6f, kReliableLead = 0.15f;
 
 /// The views of the line or square around the centre that the search looks at.
@@ -113,7 +123,8 @@ Band small_band(const LightField& views) {
 /// The best hypothesis of the pixels with the strongest edges of view 0 of a band.
 template <RaySampler S>
 std::vector<PixelMatch> match_edges(const Band& band, const S& level0_sampler, bool is_4d,
-                                    const HypothesisRange& range, const RunControl& control) {
+                                    const HypothesisRange& range, const RunControl& control,
+                                    int most_pixels = kMostPixels) {
   const S sampler = level0_sampler.at_level(band.shape.level);
   StripMap<float> edges(band.shape.width, band.rows);
   reference::edge_confidence(band, 0, band.rows, EdgeOptions{2, false, 0, false}, is_4d, edges);
@@ -124,7 +135,7 @@ std::vector<PixelMatch> match_edges(const Band& band, const S& level0_sampler, b
   std::vector<Pixel> pixels;
   for (int v = 2; v < band.shape.height - 2; v += 2)
     for (int u = 2; u < band.shape.width - 2; u += 2) pixels.push_back({edges.row(v)[u], u, v});
-  const std::size_t count = std::min<std::size_t>(pixels.size() / 3, kMostPixels);
+  const std::size_t count = std::min<std::size_t>(pixels.size() / 3, most_pixels);
   std::nth_element(pixels.begin(), pixels.begin() + count, pixels.end(),
                    [](const Pixel& a, const Pixel& b) { return a.edge > b.edge; });
   pixels.resize(count);
@@ -134,7 +145,7 @@ std::vector<PixelMatch> match_edges(const Band& band, const S& level0_sampler, b
   std::vector<float> scores(range.count);
   for (const Pixel& pixel : pixels) {
     control.throw_if_cancelled();
-    if (pixel.edge < 0.1f) continue;  // a flat picture tells nothing
+    if (pixel.edge < 0.1f || pixel.edge > kMostEdge) continue;  // a flat picture tells nothing
     for (int i = 0; i < range.count; ++i)
       scores[i] = reference::density_score(
           band, sampler, 0, Ray{double(pixel.u), double(pixel.v), range.value(i)}, score);
@@ -195,33 +206,162 @@ RangeEstimate estimate_disparity_range(const LightField& light_field, const RunC
   return estimate;
 }
 
+namespace {
+
+/// Inverse depths at which the middle of a picture is seen by at least half as many other cameras,
+/// of those that look a similar way, as where most do.
+InverseDepthRange shared_depths(const LightField& light_field, int ref) {
+  const std::vector<Camera>& cameras = light_field.cameras;
+  const Camera& camera = cameras[ref];
+  double step = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < cameras.size(); ++i)
+    if (int(i) != ref)
+      if (const double d = (cameras[i].position() - camera.position()).norm(); d > 0)
+        step = std::min(step, d);
+  constexpr int kSteps = 96;
+  constexpr double kNearest = 0.2, kFarthest = 1000;  // steps
+  constexpr double kLeastCosine = 0.6;
+  std::vector<double> inverse;
+  std::vector<int> seen;
+  for (int i = 0; i < kSteps; ++i) {
+    const double z = step * kNearest * std::pow(kFarthest / kNearest, double(i) / (kSteps - 1));
+    const Eigen::Vector3d point =
+        camera.back_project((camera.width - 1) / 2.0, (camera.height - 1) / 2.0, z);
+    int count = 0;
+    for (std::size_t j = 0; j < cameras.size(); ++j)
+      count += int(j) != ref && cameras[j].direction().dot(camera.direction()) > kLeastCosine &&
+               cameras[j].sees(point);
+    inverse.push_back(1 / z);
+    seen.push_back(count);
+  }
+  const int most = *std::max_element(seen.begin(), seen.end());
+  InverseDepthRange range{0, 0};
+  for (int i = 0; i < kSteps; ++i) {
+    if (most == 0 || 2 * seen[i] < most) continue;
+    range.max = std::max(range.max, inverse[i]);
+    range.min = i + 1 == kSteps ? 0 : inverse[i];  // z rises: the last one stays
+  }
+  return range;
+}
+
+/// Points of the scene on strong edges of a view.
+std::vector<Eigen::Vector3d> match_points(const LightField& light_field, int ref,
+                                          const RunControl& control) {
+  const UnstructuredSampler all(light_field.cameras);
+  std::vector<int> chosen = all.partners(ref);
+  std::erase(chosen, ref);
+  // The nearest ones: a coarse search finds most in what looks alike.
+  const Eigen::Vector3d here = light_field.cameras[ref].position();
+  std::sort(chosen.begin(), chosen.end(), [&](int a, int b) {
+    return (light_field.cameras[a].position() - here).norm() <
+           (light_field.cameras[b].position() - here).norm();
+  });
+  chosen.resize(std::min<std::size_t>(chosen.size(), 4));
+  if (chosen.empty()) return {};
+  chosen.insert(chosen.begin(), ref);
+  const LightField views = subset(light_field, chosen);
+  const UnstructuredSampler sampler(views.cameras);
+  const Band band = small_band(views);
+  double travel = 0;
+  for (int other = 1; other < views.num_views(); ++other)
+    travel = std::max(travel, sampler.travel(0, other));
+  constexpr int kMostSteps = 600, kMostEdgePixels = 600;
+  const int count = std::clamp(int(2 * travel / double(1 << band.shape.level)), 32, kMostSteps);
+  std::vector<Eigen::Vector3d> points;
+  for (const PixelMatch& match :
+       match_edges(band, sampler, true, {0, 1, count}, control, kMostEdgePixels)) {
+    if (match.score <= kReliableScore || match.lead <= kReliableLead) continue;
+    const double w = sampler.inverse_depth(0, match.disparity);
+    if (w <= 0) continue;
+    points.push_back(views.cameras[0].back_project(match.u << band.shape.level,
+                                                   match.v << band.shape.level, 1 / w));
+  }
+  return points;
+}
+
+}  // namespace
+
+void estimate_inverse_depths(LightField& light_field, const RunControl& control, bool read_pixels) {
+  constexpr std::size_t kMostViewsMatched = 8, kLeastPoints = 30;
+  std::vector<Camera>& cameras = light_field.cameras;
+  std::vector<int> lacking;
+  for (int i = 0; i < light_field.num_views(); ++i) {
+    if (cameras[i].inverse_depth) continue;
+    lacking.push_back(i);
+    const InverseDepthRange bound = shared_depths(light_field, i);
+    if (!(bound.max > bound.min))
+      throw Error(ErrorCode::kBadInput,
+                  "view " + light_field.views[i].name +
+                      " shares nothing with any other along its axis; is its pose right?");
+    cameras[i].inverse_depth = bound;
+  }
+  if (!read_pixels) return;
+
+  std::vector<Eigen::Vector3d> points;
+  const std::size_t stride = (lacking.size() + kMostViewsMatched - 1) / kMostViewsMatched;
+  for (std::size_t i = 0; i < lacking.size(); i += stride) {
+    control.progress("range", double(i), double(lacking.size()));
+    const auto more = match_points(light_field, lacking[i], control);
+    points.insert(points.end(), more.begin(), more.end());
+  }
+  if (points.size() < kLeastPoints)
+    throw Error(ErrorCode::kBadInput,
+                "the range of depths can't be estimated: too little in the pictures matches; give "
+                "inverse depths with --disparity MIN MAX");
+  for (const int i : lacking) {
+    std::vector<double> depths;
+    for (const Eigen::Vector3d& point : points)
+      if (cameras[i].sees(point)) depths.push_back(cameras[i].project(point).z());
+    if (const auto range = range_of_depths(std::move(depths))) cameras[i].inverse_depth = range;
+  }
+}
+
+namespace {
+
+/// The centre view first, then some of those that it is compared with.
+std::vector<int> noise_views(const LightField& light_field, std::size_t most) {
+  const int centre = centre_view(light_field);
+  std::vector<int> partners =
+      std::visit([&](const auto& s) { return s.partners(centre); }, make_sampler(light_field));
+  std::vector<int> chosen{centre};
+  const std::size_t stride = (partners.size() + most - 1) / most;
+  for (std::size_t i = 0; i < partners.size(); i += stride)
+    if (partners[i] != centre) chosen.push_back(partners[i]);
+  return chosen;
+}
+
+}  // namespace
+
 NoiseEstimate estimate_noise(const LightField& light_field, const HypothesisRange& hypotheses,
                              const RunControl& control) {
   constexpr int kGrid = 8, kMostRows = 16;
-  constexpr std::size_t kMostNoiseViews = 25;
-  std::vector<int> chosen{centre_view(light_field)};
-  const std::size_t all_views = light_field.views.size();
-  const std::size_t stride = (all_views + kMostNoiseViews - 1) / kMostNoiseViews;
-  for (std::size_t i = 0; i < all_views; i += stride)
-    if (int(i) != chosen[0]) chosen.push_back(int(i));
-  const LightField views = subset(light_field, chosen);
+  // Of unstructured views a row needs much of each.
+  const bool unstructured = light_field.kind == LightFieldKind::kUnstructured;
+  const LightField views = subset(light_field, noise_views(light_field, unstructured ? 9 : 25));
 
-  // The rows, each with what it reaches in other views.
+  // The rows, each with what it reaches in other views; in one band where that is much.
   const int height = light_field.height;
   const int rows = std::min(kMostRows, std::max(1, height / kGrid));
-  std::vector<Band> bands;
+  std::vector<RowRange> needed;
   std::vector<int> centres;
   const AnySampler sampler = make_sampler(views);
+  int rows_of_all = 0;
   for (int i = 0; i < rows; ++i) {
     const int v = int((i + 0.5) * height / rows);
     centres.push_back(v);
-    const RowRange needed = std::visit(
+    needed.push_back(std::visit(
         [&](const auto& s) {
-          return s.rows_needed(grown({v, v + 1}, 3, height), hypotheses, height);
+          return s.rows_needed(0, grown({v, v + 1}, 3, height), hypotheses, height);
         },
-        sampler);
-    Band band{{0, light_field.width, height}, needed, views.num_views(), 5, {}};
-    band.data.resize(std::size_t(needed.size()) * band.num_views * 5 * band.shape.width);
+        sampler));
+    rows_of_all += needed.back().size();
+  }
+  const bool together = rows_of_all > height;
+  if (together) needed.assign(1, {0, height});
+  std::vector<Band> bands;
+  for (const RowRange& range : needed) {
+    Band band{{0, light_field.width, height}, range, views.num_views(), 5, {}};
+    band.data.resize(std::size_t(range.size()) * band.num_views * 5 * band.shape.width);
     bands.push_back(std::move(band));
   }
   for (int view = 0; view < views.num_views(); ++view) {
@@ -232,10 +372,12 @@ NoiseEstimate estimate_noise(const LightField& light_field, const HypothesisRang
 
   constexpr float kColourCap = 0.3f, kGradientCap = 0.2f;
   std::vector<float> colour, gradient, lead;
-  for (std::size_t i = 0; i < bands.size(); ++i) {
-    const Band& band = bands[i];
+  for (std::size_t i = 0; i < centres.size(); ++i) {
+    const Band& band = bands[together ? 0 : i];
+    control.throw_if_cancelled();
     for (int u = kGrid / 2; u < light_field.width; u += kGrid) {
       const Sample own = band.pixel(0, u, centres[i]);
+      if (own[0] < reference::kMaskedSample) continue;
       float best_colour = kColourCap, best_gradient = kGradientCap, sum_of_all = 0;
       int tested = 0;
       for (int h = 0; h < hypotheses.count; ++h) {

@@ -62,7 +62,7 @@ TrialShape KernelTrial::check_shape(const TrialShape& shape) {
 }
 
 KernelTrial::KernelTrial(const TrialShape& shape, const DepthOptions& options)
-    : shape_(shape), sampler_(EpiSampler({})) {
+    : shape_(shape), sampler_(EpiSampler(std::vector<View>{})) {
   const SyntheticLightField scene = render(shape);
   const LightField& light_field = scene.light_field;
   sampler_ = make_sampler(light_field);
@@ -107,7 +107,7 @@ KernelTrial::KernelTrial(const TrialShape& shape, const DepthOptions& options)
 }
 
 void KernelTrial::load(Backend& backend) const {
-  backend.load_band(rows(), encoded_.data(), BandEncoding::kBits8);
+  backend.load_band(rows(), all_views(num_views()), encoded_.data(), BandEncoding::kBits8, nullptr);
 }
 
 std::unique_ptr<Backend> KernelTrial::reference() const {

@@ -6,13 +6,14 @@
 
 #include "gigaray/samplers/epi_sampler.h"
 #include "gigaray/samplers/grid_sampler.h"
+#include "gigaray/samplers/unstructured_sampler.h"
 
 namespace gigaray {
 
 /// The sampler of a light field, chosen at run time. Visited once per run.
-using AnySampler = std::variant<EpiSampler, GridSampler>;
+using AnySampler = std::variant<EpiSampler, GridSampler, UnstructuredSampler>;
 
-/// The sampler for the kind of the light field. Throws Error(kBadInput) for a kind without one.
+/// The sampler for the kind of the light field.
 AnySampler make_sampler(const LightField& light_field);
 
 }  // namespace gigaray

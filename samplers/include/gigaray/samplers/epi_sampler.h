@@ -11,7 +11,8 @@ namespace gigaray {
 class EpiSampler {
  public:
   static constexpr std::string_view kKernelFile = "epi_sampler.cl";
-  static constexpr int kViewTableWidth = 1;  ///< s
+  static constexpr int kRayTableWidth = 1;  ///< ŝ − s
+  static constexpr bool kRaysShiftAlike = true;
 
   /// Positions s of all views, in view steps. Throws Error(kBadInput) when a view has another t.
   explicit EpiSampler(const std::vector<View>& views);
@@ -20,13 +21,16 @@ class EpiSampler {
   std::optional<Ray> locate(int ref, int other, Ray ray) const {
     return Ray{ray.u + (s_[ref] - s_[other]) * ray.hypothesis, ray.v, ray.hypothesis};
   }
-  RowRange rows_needed(RowRange rows, HypothesisRange, int height) const {
+  std::vector<int> partners(int) const { return all_views(num_views()); }
+  RowRange rows_needed(int, RowRange rows, HypothesisRange, int height) const {
     return grown(rows, 0, height);
   }
   EpiSampler at_level(int level) const;
-  std::vector<float> view_table() const { return {s_.begin(), s_.end()}; }
+  EpiSampler subset(const std::vector<int>& views) const;
+  std::vector<float> ray_table(int ref) const;
 
  private:
+  EpiSampler() = default;
   std::vector<double> s_;  // times 2^-level
 };
 static_assert(RaySampler<EpiSampler>);

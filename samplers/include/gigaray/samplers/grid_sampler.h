@@ -11,7 +11,8 @@ namespace gigaray {
 class GridSampler {
  public:
   static constexpr std::string_view kKernelFile = "grid_sampler.cl";
-  static constexpr int kViewTableWidth = 2;  ///< s, t
+  static constexpr int kRayTableWidth = 2;  ///< ŝ − s, t̂ − t
+  static constexpr bool kRaysShiftAlike = true;
 
   explicit GridSampler(const std::vector<View>& views);
 
@@ -22,11 +23,14 @@ class GridSampler {
     return Ray{ray.u + (from.s - to.s) * ray.hypothesis, ray.v + (from.t - to.t) * ray.hypothesis,
                ray.hypothesis};
   }
-  RowRange rows_needed(RowRange rows, HypothesisRange range, int height) const;
+  std::vector<int> partners(int) const { return all_views(num_views()); }
+  RowRange rows_needed(int ref, RowRange rows, HypothesisRange range, int height) const;
   GridSampler at_level(int level) const;
-  std::vector<float> view_table() const;
+  GridSampler subset(const std::vector<int>& views) const;
+  std::vector<float> ray_table(int ref) const;
 
  private:
+  GridSampler() = default;
   struct Position {
     double s, t;  // times 2^-level
   };

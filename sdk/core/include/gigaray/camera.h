@@ -46,8 +46,8 @@ struct Camera {
 /// positive, the rotation is none, or the range is empty.
 void check(const Camera& camera, const std::string& name);
 
-/// Range of the inverse depths of points that a view sees: robust percentiles (1 … 99 %), widened
-/// by a tenth of their difference on both sides, never below 0. Empty for fewer than 8 points.
+/// Range of the inverse depths of points that a view sees: robust percentiles (0.5 … 99.5 %),
+/// widened by a fifth of their difference on both sides, never below 0. Empty for fewer than 8 points.
 /// depths: of the points, scene units, > 0.
 std::optional<InverseDepthRange> range_of_depths(std::vector<double> depths);
 

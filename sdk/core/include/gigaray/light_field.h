@@ -70,6 +70,9 @@ struct LightField {
   int height = 0;  ///< v
   std::vector<View> views;
   std::vector<Camera> cameras;                   ///< kUnstructured: one per view; else empty
+  /// kUnstructured: most views that each is compared with, the best by overlap and angle; 0: all
+  /// that see the same.
+  int most_partners = 0;
   RigGeometry rig;                               ///< kUnstructured: the unit alone
   std::optional<DisparityRange> declared_range;  ///< From a parameter file, if there is one.
   std::shared_ptr<const PixelSource> pixels;
@@ -89,9 +92,13 @@ struct LightField {
 /// that are missing or wrong.
 void check(const LightField& light_field);
 
-/// The picture of a view, see PixelSource::read. Throws Error(kBadInput) naming the view when its
-/// size is not that of the light field.
+/// The picture of a view, see PixelSource::read: 3 channels, or 4 with a mask. Throws
+/// Error(kBadInput) naming the view when its size is not that of the light field.
 Image<std::uint16_t> read_view(const LightField& light_field, int view_idx);
+
+/// Takes the fourth channel away from a picture that has one: 0 where it shows nothing of the
+/// scene.
+std::optional<Mask> take_mask(Image<std::uint16_t>& picture);
 
 /// Index of the view nearest to the centre of the rig (ties: smaller s, then smaller t).
 int centre_view(const LightField& light_field);

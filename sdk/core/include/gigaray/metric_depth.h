@@ -17,4 +17,9 @@ bool has_metric_depth(const RigGeometry& rig);
 /// m, F = 5 m: d = 0 is at 5 m, d = 5 at 2.5 m. The rig must have metric depth.
 FloatMap depth_from_disparity(const FloatMap& disparity, const RigGeometry& rig);
 
+/// The same for a light field. Unstructured: disparity is inverse depth and depth its inverse, along
+/// the optical axis of the view; always known. NaN where it is 0 or less.
+bool has_metric_depth(const LightField& light_field);
+FloatMap depth_from_disparity(const FloatMap& disparity, const LightField& light_field);
+
 }  // namespace gigaray

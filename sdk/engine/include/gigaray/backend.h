@@ -91,6 +91,10 @@ struct LevelShape {
   int height = 0;
 };
 
+/// Colour in a band of a pixel that shows nothing of the scene. No kernel reaches it, and a negative
+/// red tells the samples that it has a part in.
+inline constexpr float kMaskedColour = -1000;
+
 /// How the rows of a band are encoded.
 enum class BandEncoding {
   kBits8,   ///< [row][view][u][3] bytes as decoded
@@ -113,8 +117,11 @@ class Backend {
   /// Views that keep estimates, in the order that `estimates` below has.
   virtual void set_active_views(const std::vector<int>& views) = 0;
   virtual void begin_level(const LevelShape& shape) = 0;
-  /// rows: what is loaded, halo included. encoded: rows.size() rows in the given encoding.
-  virtual void load_band(RowRange rows, const void* encoded, BandEncoding encoding) = 0;
+  /// rows: what is loaded, halo included. views: whose, ascending; the steps see no others. encoded:
+  /// rows.size() rows of those views in the given encoding. mask: [row][view][u], 0: the pixel
+  /// shows nothing of the scene and no sample is taken there; null: all do.
+  virtual void load_band(RowRange rows, const std::vector<int>& views, const void* encoded,
+                         BandEncoding encoding, const std::uint8_t* mask) = 0;
 
   virtual void edge_confidence(int ref, RowRange rows, StripMap<float>& confidence) = 0;
   /// Scores of `rows` where todo, kept until the next call of one of these two: the paper's,
@@ -168,7 +175,7 @@ class Backend {
   virtual void propagation(int ref, RowRange rows, const StripMap<float>& disparity,
                            const StripMap<float>& confidence, const StripMap<Radiance>& radiance,
                            RowRange state_rows, PackedEstimate* estimates) = 0;
-  /// small: [small_rows][view][3][(width + 1) / 2]. The band covers rows 2v − 3 … 2v + 3 of them.
+  /// small: [small_rows][loaded view][3][(width + 1) / 2]. The band covers rows 2v − 3 … 2v + 3 of them.
   virtual void downsample(RowRange small_rows, float* small) = 0;
 };
 

@@ -101,11 +101,17 @@ struct PropagationOptions {
 /// Everything that decides the result. paper_options() and auto_options() fill it.
 struct DepthOptions {
   std::string preset = "auto";  ///< Name only, for reports.
-  /// Tested range, level-0 px per view step. Empty: from the light field, else estimated.
+  /// Tested range, level-0 px per view step; unstructured: inverse depths, 1/scene unit, ≥ 0, the
+  /// same for all views. Empty: from the light field, else estimated.
   std::optional<DisparityRange> disparity;
-  /// Number of hypotheses, 2 … 4096; 0: one every `hypothesis_step`.
+  /// Number of hypotheses, 2 … 4096; 0: one every `hypothesis_step`, unstructured
+  /// `unstructured_step`.
   int hypotheses = 0;
   double hypothesis_step = 0.035;  ///< level-0 px per view step
+  /// Way of a point from one hypothesis to the next in the view that stands in the middle of those
+  /// that a view is compared with, ordered by that way; level-0 px.
+  double unstructured_step = 0.5;
+  int most_partners = 0;  ///< Unstructured: LightField::most_partners; 0 … 1000
   EdgeOptions edge;
   ScoreOptions score;
   SupportOptions support;

@@ -17,8 +17,9 @@ namespace gigaray {
 
 /// A line segment of the light field: an accepted estimate (section 3), an element of Γ.
 struct RayTuple {
-  float hypothesis =
-      0;  ///< Disparity, level-0 px per view step; the slope m of eq. 1 is its inverse.
+  /// Disparity, level-0 px per view step; the slope m of eq. 1 is its inverse. Unstructured:
+  /// inverse depth in the camera of `view`.
+  float hypothesis = 0;
   float confidence = 0;
   Radiance radiance;      ///< Mean radiance r̄ in the working colour space.
   std::int32_t view = 0;  ///< Where it was computed,
@@ -29,7 +30,9 @@ struct RayTuple {
 
 /// Depth of one view.
 struct ViewDepth {
-  FloatMap disparity;  ///< (v, u), level-0 px per view step; NaN: no estimate
+  /// (v, u), level-0 px per view step; unstructured: inverse depth 1/z in the view's camera, 1/scene
+  /// unit. NaN: no estimate
+  FloatMap disparity;
   /// (v, u); NaN: no estimate. auto: probability of being right within 0.07 px, calibration.h;
   /// paper: eq. 7, 0 and above.
   FloatMap confidence;
@@ -66,7 +69,9 @@ class Reconstruction {
 
   /// The options as they were used: range, number of hypotheses and bandwidths filled in.
   const DepthOptions& options() const;
-  const HypothesisRange& hypotheses() const;
+  HypothesisRange hypotheses() const;  ///< unstructured: from the least to the largest of all views
+  /// Unstructured: the cameras, with the range of inverse depths that each searched. Else empty.
+  const std::vector<Camera>& cameras() const;
   const std::vector<int>& views() const;  ///< Views that have depth.
   int num_levels() const;
 

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Gigaray authors
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "gigaray/adapters/lens.h"
+#include "gigaray/run_control.h"
+
+namespace gigaray {
+
+struct ColmapRunOptions {
+  /// Masks of the photographs, black where nothing is to be looked at; names as OpenOptions::masks.
+  std::filesystem::path masks;
+  /// Known intrinsics of all photographs, for their size. Empty: found with the poses, from EXIF
+  /// and a guess.
+  std::optional<Lens> lens;
+  /// Is a known lens refined all the same?
+  bool refine_lens = false;
+};
+
+/// What COLMAP found.
+struct ColmapRun {
+  std::filesystem::path model;    ///< folder of the largest model; pictures are named as below
+  int num_pictures = 0;           ///< in the folder of photographs
+  int num_registered = 0;         ///< of them in the model, 2 or more
+  std::vector<std::string> lost;  ///< names of the others, sorted
+  std::filesystem::path log;      ///< everything that the program printed
+};
+
+/// Finds the cameras of a folder of unordered photographs with the program `colmap` (3.8 – 3.12):
+/// SIFT on the CPU, matches of all pairs (of neighbours by name when there are more than a hundred
+/// photographs), incremental mapping. One camera is shared when all photographs have one size and
+/// EXIF names one camera and focal length, or none at all. No display is needed.
+///
+/// work: a folder for the database, the models and the log (colmap.log); created, and kept whatever
+/// happens. Progress in three stages; what was left out goes to control.on_message. A cancelled run
+/// kills the program and all that it started.
+///
+/// Throws Error(kIo) when the program is not installed (package `colmap`) or fails, naming the log;
+/// Error(kBadInput) when there are fewer than two photographs or fewer than two got a camera, with
+/// what to try; Error(kInvalidArgument) when the lens is for another size, or `work` holds an
+/// earlier run; Error(kCancelled).
+ColmapRun run_colmap(const std::filesystem::path& photographs, const std::filesystem::path& work,
+                     const ColmapRunOptions& options, const RunControl& control);
+
+}  // namespace gigaray

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Gigaray authors
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "gigaray/adapters/reader.h"
+#include "gigaray/light_field.h"
+#include "gigaray/run_control.h"
+
+namespace gigaray {
+
+/// Is the input a folder of pictures with nothing that says where they were taken?
+bool is_plain_folder(const std::filesystem::path& input, const OpenOptions& options);
+
+/// Why the pictures of a plain folder can't be views along a line: names without numbers, several
+/// series, several sizes. Empty: they may be. Throws Error(kBadInput) naming a damaged picture.
+std::string why_no_series(const std::filesystem::path& folder);
+
+/// Is a series of pictures what a 3D light field is, that is, do things move along the rows (or the
+/// columns) of the pictures alone from one view to the next? The median displacement across that
+/// direction of features matched between some neighbouring views, the largest of the views looked
+/// at, in px of pictures shrunk to 1000 px at most. Rectified rows have some tenths, photographs
+/// from the hand many px. Empty when too little matches to tell.
+std::optional<double> displacement_across_rows(const LightField& light_field,
+                                               const RunControl& control);
+
+/// Above it pictures are no row.
+inline constexpr double kMostAcrossRows = 1.5;
+
+}  // namespace gigaray

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Gigaray authors
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "gigaray/adapters/colmap_model.h"
+
+namespace gigaray {
+
+/// Folders of models directly below one, such as sparse/0, sparse/1 …, by their numbers.
+std::vector<std::filesystem::path> colmap_models_below(const std::filesystem::path& folder);
+
+struct FoundColmapModel {
+  std::filesystem::path folder;
+  ColmapModel model;
+};
+
+/// Reads the model with the most images. Of several it notes their sizes and what can't be read.
+/// Throws Error(kBadInput) when none can. folders: one or more.
+FoundColmapModel largest_colmap_model(const std::vector<std::filesystem::path>& folders,
+                                      std::vector<std::string>& notes);
+
+}  // namespace gigaray

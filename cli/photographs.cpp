@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Gigaray authors
+#include "photographs.h"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <iterator>
+#include <string>
+
+#include "gigaray/adapters/atomic_output.h"
+#include "gigaray/adapters/colmap_program.h"
+#include "gigaray/adapters/photographs.h"
+
+namespace gigaray::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Where the finished run of COLMAP notes what it was for.
+constexpr const char* kRecord = "photographs.txt";
+
+/// Names, sizes and times of what COLMAP looks at: the same text, the same cameras.
+std::string record_of(const InputOptions& input) {
+  std::string record;
+  for (const fs::path& folder : {input.input, input.open.masks}) {
+    if (folder.empty()) continue;
+    std::vector<std::string> lines;
+    for (const auto& entry : fs::directory_iterator(folder))
+      if (entry.is_regular_file())
+        lines.push_back(fmt::format("{} {} {}\n", entry.path().filename().string(),
+                                    entry.file_size(),
+                                    entry.last_write_time().time_since_epoch().count()));
+    std::sort(lines.begin(), lines.end());
+    record += fs::absolute(folder).string() + "\n";
+    for (const std::string& line : lines) record += line;
+  }
+  return record;
+}
+
+std::string text_of(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+/// Why the pictures are no row; empty: they are, or may be.
+std::string why_no_row(const InputOptions& input, const RunControl& control) {
+  const std::string why = why_no_series(input.input);
+  if (!why.empty()) return why;
+  const auto across = displacement_across_rows(input.open_light_field(), control);
+  if (!across || *across <= kMostAcrossRows) return {};
+  return fmt::format("{}: the pictures are no row, things move {:.1f} px across it",
+                     input.input.string(), *across);
+}
+
+LightField find_cameras(const InputOptions& input, const fs::path& work,
+                        const RunControl& control) {
+  const std::string record = record_of(input);
+  OpenOptions open;
+  open.images = input.input;
+  open.masks = input.open.masks;
+  if (text_of(work / kRecord) == record) {
+    control.message(fmt::format("cameras as COLMAP found them before, in {}", work.string()));
+    return open_light_field(work, open);
+  }
+  // What an earlier run left behind: of other photographs, or unfinished.
+  if (fs::exists(work / kRecord) || fs::exists(work / "colmap.log")) fs::remove_all(work);
+  ColmapRunOptions options;
+  options.masks = input.open.masks;
+  const ColmapRun run = run_colmap(input.input, work, options, control);
+  control.message(fmt::format("COLMAP found the cameras of {} of {} photographs (log: {})",
+                              run.num_registered, run.num_pictures, run.log.string()));
+  write_file_atomically(work / kRecord, record);
+  return open_light_field(work, open);
+}
+
+}  // namespace
+
+LightField open_or_find_cameras(const InputOptions& input, const fs::path& output,
+                                const RunControl& control) {
+  const bool states_row = input.open.direction != Travel::kAuto || input.open.lenslet.columns > 0;
+  if (states_row || !is_plain_folder(input.input, input.open)) return input.open_light_field();
+  std::string why = input.find_cameras ? "" : why_no_row(input, control);
+  if (!input.find_cameras && why.empty()) return input.open_light_field();
+  if (!why.empty()) control.message(why + "; their cameras are found with COLMAP");
+  fs::path work = fs::absolute(output).lexically_normal();
+  if (!work.has_filename()) work = work.parent_path();
+  work += ".colmap";
+  return find_cameras(input, work, control);
+}
+
+}  // namespace gigaray::cli

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Gigaray authors
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "opencl/lane_kernel.h"
+#include "opencl/opencl_backend.h"
+
+namespace gigaray::opencl {
+
+/// Local memory of density_score per view, see there; mean_radiance takes 3.
+inline constexpr int kStagedVectors = 4;
+
+/// The kernels of one backend, joined with its sampler's twin, each built when first asked for.
+class KernelSet {
+ public:
+  /// sampler_file: a file of samplers/kernels. common: options of every kernel.
+  KernelSet(Device& device, std::string sampler_file, std::string common, int num_views,
+            TuningOverrides overrides)
+      : device_(device),
+        sampler_file_(std::move(sampler_file)),
+        common_(std::move(common)),
+        num_views_(num_views),
+        overrides_(std::move(overrides)) {}
+
+  /// A kernel without lanes. file: without .cl.
+  Kernel& plain(const std::string& file, const std::string& entry, const std::string& options);
+  /// A kernel with the lanes and groups of its tuning. entry: empty, as the file.
+  LaneKernel& lanes(const std::string& file, const std::string& options, std::string entry);
+
+ private:
+  Kernel build(const std::string& file, const std::string& entry, const std::string& options);
+  Tuning tuning_of(const std::string& kernel) const;
+
+  Device& device_;
+  std::string sampler_file_, common_;
+  int num_views_;
+  TuningOverrides overrides_;
+  std::map<std::string, Kernel> plain_;
+  std::map<std::string, LaneKernel> lanes_;
+};
+
+}  // namespace gigaray::opencl

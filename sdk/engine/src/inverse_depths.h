@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Gigaray authors
+#pragma once
+
+#include "gigaray/depth_options.h"
+#include "gigaray/light_field.h"
+#include "gigaray/run_control.h"
+
+namespace gigaray {
+
+/// Gives every camera of an unstructured light field its range of inverse depths: that of the
+/// options, else its own, else one estimated from the pictures (from the cameras alone when no
+/// pixel may be read). Says what it found. Throws Error(kBadInput) when nothing can be estimated,
+/// Error(kInvalidArgument) for a range with negative inverse depths.
+void set_inverse_depths(LightField& light_field, const DepthOptions& options,
+                        const RunControl& control, bool read_pixels);
+
+/// The range that holds those of all cameras.
+InverseDepthRange all_inverse_depths(const std::vector<Camera>& cameras);
+
+/// Says which views are compared with no other one and will have no depth. Throws Error(kBadInput)
+/// when that holds for all that are wanted.
+void check_partners(const LightField& light_field, const std::vector<int>& views,
+                    const RunControl& control);
+
+/// Hypotheses that every camera's range is sampled by, so that the step of the options is kept in
+/// nine of ten views, as far as the most that are reasonable go.
+int count_hypotheses(const LightField& light_field, const DepthOptions& options);
+
+}  // namespace gigaray
