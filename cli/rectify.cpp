@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Gigaray authors
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "command.h"
+#include "gigaray/adapters/atomic_output.h"
+#include "gigaray/adapters/feature_tracks.h"
+#include "gigaray/adapters/light_field_json.h"
+#include "gigaray/adapters/pictures.h"
+#include "gigaray/adapters/rail_rectification.h"
+
+namespace gigaray::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::ordered_json;
+
+struct RectifyOptions {
+  fs::path input, out;
+  std::optional<double> focal_px;
+  std::vector<std::string> lens;  ///< model, then parameters
+  std::string rotations = "best";
+  std::optional<double> step_mm;
+  bool json = false;
+};
+
+KnownLens known_lens(const RectifyOptions& options) {
+  KnownLens known;
+  known.focal_px = options.focal_px;
+  if (options.lens.empty()) return known;
+  known.lens.emplace().model = options.lens.front();
+  for (std::size_t i = 1; i < options.lens.size(); ++i) {
+    double value = 0;
+    if (!CLI::detail::lexical_cast(options.lens[i], value))
+      throw Error(ErrorCode::kInvalidArgument,
+                  "--lens: '" + options.lens[i] +
+                      "' is not a number; write a COLMAP camera model "
+                      "and its parameters, as in RADIAL 800 480 320 -0.1 0.02");
+    known.lens->params.push_back(value);
+  }
+  return known;
+}
+
+RailRotations parse_rotations(const std::string& name) {
+  return name == "own"      ? RailRotations::kOwn
+         : name == "common" ? RailRotations::kCommon
+                            : RailRotations::kBest;
+}
+
+/// Writes the views into a folder, one file each; returns their names.
+std::vector<std::string> write_views(const LightField& light_field, const fs::path& folder,
+                                     const RunControl& control) {
+  std::vector<std::string> files;
+  for (int view = 0; view < light_field.num_views(); ++view) {
+    control.progress("rectify", view, light_field.num_views());
+    files.push_back(light_field.views[view].name + ".png");
+    write_png(folder / files.back(), light_field.pixels->read(view),
+              light_field.pixels->bit_depth());
+  }
+  control.progress("rectify", light_field.num_views(), light_field.num_views());
+  return files;
+}
+
+struct Spacing {
+  double min = 0, median = 0, max = 0;  ///< in median steps
+};
+
+Spacing spacing_of(const LightField& light_field) {
+  std::vector<double> positions;
+  for (const View& view : light_field.views) positions.push_back(view.s);
+  std::vector<double> steps = steps_between(positions);
+  std::sort(steps.begin(), steps.end());
+  return {steps.front(), steps[steps.size() / 2], steps.back()};
+}
+
+ordered_json stats_json(const ResidualStats& stats) {
+  return {{"median_px", stats.median}, {"percentile_95_px", stats.percentile_95}};
+}
+
+ordered_json report_json(const RectifiedRail& rail, const LightField& light_field,
+                         const ResidualStats& vertical_after) {
+  const RailReport& report = rail.report;
+  const Spacing spacing = spacing_of(light_field);
+  ordered_json line = nullptr;
+  if (report.line) {
+    const double step = report.line->median_step;
+    line = {{"rms_steps", report.line->rms_distance / step},
+            {"max_steps", report.line->max_distance / step}};
+  }
+  return {
+      {"cameras", rail.pictures.size()},
+      {"poses", rail.posed ? "COLMAP" : "known order"},
+      {"line_residual", line},
+      {"rotations", report.own_rotations ? "own" : "common"},
+      {"rotation_rms_deg", report.rotation_rms_deg},
+      {"reprojection_rms_px", report.reprojection.rms},
+      {"tracks", report.num_tracks},
+      {"rejected_share", report.rejected_share},
+      {"vertical_residual_before", stats_json(report.vertical_before)},
+      {"vertical_residual_after", stats_json(vertical_after)},
+      {"spacing_steps", {{"min", spacing.min}, {"median", spacing.median}, {"max", spacing.max}}},
+      {"distortion", {rail.rail.lens.k1, rail.rail.lens.k2}}};
+}
+
+void add_report(const fs::path& description, const ordered_json& report) {
+  ordered_json root;
+  std::ifstream(description) >> root;
+  root["rectify"] = report;
+  write_file_atomically(description, root.dump(2) + "\n");
+}
+
+void print_text(const fs::path& out, const RectifiedRail& rail, const LightField& light_field,
+                const ResidualStats& vertical_after) {
+  const auto line = [](const char* label, const std::string& text) {
+    fmt::print("{:<14}{}\n", label, text);
+  };
+  const RailReport& report = rail.report;
+  const RigGeometry& rig = light_field.rig;
+  const std::string unit = rig.unit.empty() ? "" : " " + rig.unit;
+  const auto in_unit = [&](double steps) {
+    return rig.unit.empty() ? "" : fmt::format(" ({:.3g}{})", steps * *rig.baseline, unit);
+  };
+  fmt::print("{}: {} views of {} × {} px, a 3D light field\n", out.string(),
+             light_field.num_views(), light_field.width, light_field.height);
+  if (report.line) {
+    const double rms = report.line->rms_distance / report.line->median_step;
+    const double max = report.line->max_distance / report.line->median_step;
+    line("line", fmt::format("cameras beside it by {:.3g} steps{} rms, {:.3g}{} at most", rms,
+                             in_unit(rms), max, in_unit(max)));
+  }
+  line("rotations", fmt::format("{}, the cameras turn by {:.3g}° rms",
+                                report.own_rotations ? "each picture's own" : "one for all",
+                                report.rotation_rms_deg));
+  line("reprojection",
+       fmt::format("{:.3g} px rms, {} tracks, {:.3g} % of the sightings rejected",
+                   report.reprojection.rms, report.num_tracks, 100 * report.rejected_share));
+  line("rows differ",
+       fmt::format("by {:.3g} px (95 %: {:.3g}) before, {:.3g} px (95 %: {:.3g}) now",
+                   report.vertical_before.median, report.vertical_before.percentile_95,
+                   vertical_after.median, vertical_after.percentile_95));
+  const Spacing spacing = spacing_of(light_field);
+  line("spacing", fmt::format("{:.3g} … {:.3g} … {:.3g} view steps{}", spacing.min, spacing.median,
+                              spacing.max, in_unit(1)));
+}
+
+void rectify(const RectifyOptions& options, const RunControl& control) {
+  if (options.step_mm && !(*options.step_mm > 0))
+    throw Error(ErrorCode::kInvalidArgument, "--rail-step must be more than 0 mm");
+  AtomicFolder out(options.out, kLightFieldFormat);
+  const RailPhotographs photographs = open_rail_in_order(options.input, known_lens(options));
+  for (const std::string& note : photographs.notes) control.message(note);
+  const RectifiedRail rail =
+      calibrate_rail(photographs, parse_rotations(options.rotations), control);
+  const LightField light_field = rectified_light_field(rail, options.step_mm);
+  check(light_field);
+
+  const std::vector<std::string> files = write_views(light_field, out.path(), control);
+  const ResidualStats vertical_after =
+      measure_vertical_residual({light_field.num_views(), light_field.pixels->bit_depth(),
+                                 [&](int view) { return read_picture(out.path() / files[view]); }},
+                                "measure", control);
+  const ordered_json report = report_json(rail, light_field, vertical_after);
+  const fs::path description = out.path() / "gigaray.json";
+  write_light_field_json(description, light_field, files);
+  add_report(description, report);
+  control.throw_if_cancelled();
+  out.commit();
+  if (options.json)
+    fmt::print("{}\n", report.dump(2));
+  else
+    print_text(options.out, rail, light_field, vertical_after);
+}
+
+}  // namespace
+
+Run rectify_command(CLI::App& app) {
+  app.description("Photographs taken on a rail become a 3D light field: undistorted, rectified");
+  auto options = std::make_shared<RectifyOptions>();
+  app.add_option("INPUT", options->input, "Folder of photographs, numbered along the rail")
+      ->required();
+  app.add_option("-o,--output", options->out, "Folder to write")->required();
+  auto* focal = app.add_option("--focal", options->focal_px,
+                               "Focal length, px; without it that of the EXIF data");
+  app.add_option("--lens", options->lens,
+                 "All of the lens: a COLMAP camera model and its parameters, as in RADIAL 800 480 "
+                 "320 -0.1 0.02; without it the radial distortion is found")
+      ->type_name("MODEL NUMBER...")
+      ->expected(2, 20)
+      ->excludes(focal);
+  app.add_option("--rotations", options->rotations,
+                 "Each picture is rectified by its camera's own rotation or by one common to all; "
+                 "best: whichever leaves less between the rows")
+      ->check(CLI::IsMember({"best", "own", "common"}))
+      ->capture_default_str();
+  app.add_option("--rail-step", options->step_mm,
+                 "Mean distance of neighbouring cameras: depth will be in mm")
+      ->type_name("MM");
+  app.add_flag("--json", options->json, "Print JSON");
+  return [options](const RunControl& control) { rectify(*options, control); };
+}
+
+}  // namespace gigaray::cli
