@@ -3,15 +3,11 @@
 #include "gigaray/synthetic.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <condition_variable>
 #include <cstdio>
-#include <exception>
-#include <mutex>
 #include <string>
-#include <thread>
 
+#include "for_each_view.h"
 #include "synthetic_noise.h"
 #include "synthetic_scene.h"
 
@@ -40,76 +36,21 @@ void require_range(const std::string& field, double value, double low, double hi
           "from " + to_text(low) + " to " + to_text(high));
 }
 
-/// Views with something that walks through: the share of them, those with the smallest hashes.
+}  // namespace
+
+namespace synthetic {
+
 std::vector<bool> choose_outliers(const SyntheticOptions& options, int num_views) {
   constexpr std::uint64_t kChoiceKey = 0xc401ce;
   std::vector<std::pair<std::uint64_t, int>> order;
   for (int i = 0; i < num_views; ++i)
-    order.emplace_back(synthetic::hash(options.seed, kChoiceKey, std::uint64_t(i)), i);
+    order.emplace_back(hash(options.seed, kChoiceKey, std::uint64_t(i)), i);
   std::sort(order.begin(), order.end());
   std::vector<bool> chosen(num_views, false);
   const int count = int(options.outliers * num_views + 0.5);
   for (int i = 0; i < count; ++i) chosen[order[i].second] = true;
   return chosen;
 }
-
-/// Runs job(0) … job(count - 1) on all cores; report(1) … report(count) on this thread. The first
-/// exception, of a job or of report, stops the rest and is thrown again.
-template <class Job, class Report>
-void for_each_view(int count, Job job, Report report) {
-  std::mutex mutex;
-  std::condition_variable changed;
-  std::atomic<int> next{0};
-  std::exception_ptr failure;
-  int done = 0, idle = 0;
-  const int num_workers = std::clamp(int(std::thread::hardware_concurrency()), 1, count);
-  const auto stop_with = [&](std::exception_ptr error) {
-    next = count;
-    if (!failure) failure = error;
-  };
-  const auto work = [&] {
-    for (int i = next++; i < count; i = next++) {
-      std::exception_ptr error;
-      try {
-        job(i);
-      } catch (...) {
-        error = std::current_exception();
-      }
-      const std::lock_guard lock(mutex);
-      if (error) stop_with(error);
-      ++done;
-      changed.notify_one();
-    }
-    const std::lock_guard lock(mutex);
-    ++idle;
-    changed.notify_one();
-  };
-  {
-    std::vector<std::jthread> workers;
-    for (int i = 0; i < num_workers; ++i) workers.emplace_back(work);
-    std::unique_lock lock(mutex);
-    for (int reported = 0; idle < num_workers || (reported < done && !failure);) {
-      changed.wait(lock, [&] { return reported < done || idle == num_workers; });
-      if (reported == done) continue;
-      ++reported;
-      if (failure) continue;
-      lock.unlock();
-      std::exception_ptr error;
-      try {
-        report(reported);
-      } catch (...) {
-        error = std::current_exception();
-      }
-      lock.lock();
-      if (error) stop_with(error);
-    }
-  }
-  if (failure) std::rethrow_exception(failure);
-}
-
-}  // namespace
-
-namespace synthetic {
 
 std::vector<View> make_views(const SyntheticOptions& options) {
   std::vector<View> views;
@@ -182,14 +123,15 @@ void render_synthetic_views(const SyntheticOptions& options, const RunControl& c
   options.check();
   const std::vector<View> views = synthetic::make_views(options);
   const synthetic::Scene scene = synthetic::build_scene(options);
-  const std::vector<bool> has_outlier = choose_outliers(options, int(views.size()));
+  const std::vector<bool> has_outlier = synthetic::choose_outliers(options, int(views.size()));
   const double total = double(views.size());
   control.progress("rendering", 0, total);
-  for_each_view(
+  synthetic::for_each_view(
       int(views.size()),
       [&](int i) {
-        auto [picture, disparity] =
-            synthetic::render_view(scene, options, i, views[i], has_outlier[i], control);
+        auto [picture, disparity] = synthetic::render_view(
+            scene, options, i, synthetic::ViewRays(scene.rig, views[i]),
+            [&](double z) { return scene.rig.disparity(z); }, has_outlier[i], control);
         sink(i, std::move(picture), std::move(disparity));
       },
       [&](int done) { control.progress("rendering", done, total); });

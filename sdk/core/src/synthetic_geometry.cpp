@@ -82,22 +82,66 @@ RigGeometry Rig::geometry() const {
   return {focal, near_disparity / focal, focus_distance, "m"};
 }
 
-Camera::Camera(const Rig& rig, const View& view)
-    : origin{view.s * rig.near_disparity / rig.focal, view.t * rig.near_disparity / rig.focal, 0},
-      u0(rig.cx - view.s * rig.offset),
-      v0(rig.cy - view.t * rig.offset),
-      inverse_focal(1 / rig.focal) {}
+ViewRays::ViewRays(const Rig& rig, const View& view)
+    : origin_{view.s * rig.near_disparity / rig.focal, view.t * rig.near_disparity / rig.focal, 0},
+      u0_(rig.cx - view.s * rig.offset),
+      v0_(rig.cy - view.t * rig.offset),
+      focal_(rig.focal),
+      inverse_focal_(1 / rig.focal) {}
+
+ViewRays::ViewRays(const gigaray::Camera& camera, double distortion)
+    : u0_(camera.centre_u),
+      v0_(camera.centre_v),
+      focal_(camera.focal_u),
+      inverse_focal_(1 / camera.focal_u),
+      is_posed_(true),
+      distortion_(distortion) {
+  const auto axis = [&](int row) {
+    return Vec3d{camera.rotation(row, 0), camera.rotation(row, 1), camera.rotation(row, 2)};
+  };
+  right_ = axis(0);
+  down_ = axis(1);
+  ahead_ = axis(2);
+  const Eigen::Vector3d position = camera.position();
+  origin_ = {position.x(), position.y(), position.z()};
+}
+
+Vec3d ViewRays::undistorted(double u, double v) const {
+  if (distortion_ == 0) return {u, v, 0};
+  const double x = (u - u0_) * inverse_focal_, y = (v - v0_) * inverse_focal_;
+  // Newton's method for r (1 + k1 r²) = the distorted radius.
+  const double distorted = std::sqrt(x * x + y * y);
+  double r = distorted;
+  constexpr int kSteps = 12;
+  for (int i = 0; i < kSteps; ++i)
+    r -= (r * (1 + distortion_ * r * r) - distorted) / (1 + 3 * distortion_ * r * r);
+  const double k = distorted > 0 ? r / distorted : 1;
+  return {u0_ + k * (u - u0_), v0_ + k * (v - v0_), 0};
+}
+
+Vec3d ViewRays::direction(double u, double v) const {
+  const Vec3d pixel = undistorted(u, v);
+  const double x = (pixel.x - u0_) * inverse_focal_, y = (pixel.y - v0_) * inverse_focal_;
+  return is_posed_ ? x * right_ + y * down_ + ahead_ : Vec3d{x, y, 1};
+}
+
+Vec3d ViewRays::project(Vec3d p) const {
+  const Vec3d from = p - origin_;
+  const double z = dot(ahead_, from);
+  return {u0_ + focal_ * dot(right_, from) / z, v0_ + focal_ * dot(down_, from) / z, z};
+}
 
 double intersect(const Primitive& primitive, const Rig& rig, Vec3d origin, Vec3d direction) {
   switch (primitive.kind) {
     case Primitive::Kind::kCard:
     case Primitive::Kind::kDisc:
     case Primitive::Kind::kWedge: {
-      const double z =
+      const double k =
           (primitive.plane_k - dot(primitive.normal, origin)) / dot(primitive.normal, direction);
-      if (!(z > 0) || z == kNoHit) return kNoHit;
-      const Vec3d p = origin + z * direction;
-      return card_covers(primitive, rig.focal * p.x / z, rig.focal * p.y / z) ? z : kNoHit;
+      if (!(k > 0) || k == kNoHit) return kNoHit;
+      const Vec3d p = origin + k * direction;
+      if (!(p.z > 0)) return kNoHit;
+      return card_covers(primitive, rig.focal * p.x / p.z, rig.focal * p.y / p.z) ? k : kNoHit;
     }
     case Primitive::Kind::kBall:
       return intersect_ball(primitive.centre, primitive.radius, origin, direction);
@@ -126,14 +170,15 @@ Vec3f texture_point(const Primitive& primitive, Vec3d p) {
   return {float(dot(p, primitive.along)), float(dot(p, primitive.across)), 0};
 }
 
-PixelBox bounds(const Primitive& primitive, const Rig& rig, const Camera& camera) {
+PixelBox bounds(const Primitive& primitive, const Rig& rig, const ViewRays& rays) {
   PixelBox box{kNoHit, -kNoHit, kNoHit, -kNoHit};
+  const PixelBox everywhere{-kNoHit, kNoHit, -kNoHit, kNoHit};
+  bool is_before = true;
   const auto grow = [&](Vec3d p) {
-    const double u = camera.u0 + rig.focal * (p.x - camera.origin.x) / p.z;
-    const double v = camera.v0 + rig.focal * (p.y - camera.origin.y) / p.z;
+    const auto [u, v, z] = rays.project(p);
+    is_before &= z > 0;
     box = {std::min(box.u0, u), std::max(box.u1, u), std::min(box.v0, v), std::max(box.v1, v)};
   };
-  const PixelBox everywhere{-kNoHit, kNoHit, -kNoHit, kNoHit};
   if (primitive.kind != Primitive::Kind::kBall && primitive.kind != Primitive::Kind::kRod) {
     for (const double x : {primitive.x0, primitive.x1}) {
       for (const double y : {primitive.y0, primitive.y1}) {
@@ -144,7 +189,7 @@ PixelBox bounds(const Primitive& primitive, const Rig& rig, const Camera& camera
         grow(z * direction);
       }
     }
-    return box;
+    return is_before ? box : everywhere;
   }
   const double r = primitive.radius;
   for (const double place : {0.0, primitive.length}) {
@@ -154,7 +199,7 @@ PixelBox bounds(const Primitive& primitive, const Rig& rig, const Camera& camera
       for (const double dy : {-r, r})
         for (const double dz : {-r, r}) grow(c + Vec3d{dx, dy, dz});
   }
-  return box;
+  return is_before ? box : everywhere;
 }
 
 }  // namespace gigaray::synthetic

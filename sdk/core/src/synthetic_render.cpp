@@ -65,19 +65,14 @@ class Figure {
   Colour colours_[3];
 };
 
-struct Hit {
-  int primitive = -1;
-  double z = kNoHit;
-};
-
 class ViewRenderer {
  public:
-  ViewRenderer(const Scene& scene, const SyntheticOptions& options, int view_idx, const View& view,
-               const Figure* figure, const RunControl& control)
+  ViewRenderer(const Scene& scene, const SyntheticOptions& options, int view_idx,
+               const ViewRays& rays, const Figure* figure, const RunControl& control)
       : scene_(scene),
         options_(options),
         view_idx_(view_idx),
-        camera_(scene.rig, view),
+        rays_(rays),
         figure_(figure),
         control_(control),
         tiles_across_((options.width + kTile - 1) / kTile),
@@ -85,7 +80,7 @@ class ViewRenderer {
     list_primitives();
   }
 
-  RenderedView render() {
+  RenderedView render(const std::function<double(double z)>& truth_of) {
     const int width = options_.width, height = options_.height;
     RenderedView out{Image<std::uint16_t>(width, height, 3), FloatMap(width, height)};
     Image<std::uint16_t> seen(width, height);
@@ -93,7 +88,7 @@ class ViewRenderer {
       control_.throw_if_cancelled();
       for (int u = 0; u < width; ++u) {
         const Hit hit = trace(tile(u, v), u, v);
-        out.disparity(u, v) = float(scene_.rig.disparity(hit.z));
+        out.truth(u, v) = float(truth_of(hit.z));
         seen(u, v) = figure_ && figure_->covers(u, v) ? kFigure : std::uint16_t(hit.primitive);
       }
     }
@@ -114,13 +109,14 @@ class ViewRenderer {
   void list_primitives() {
     const int tiles_down = int(tiles_.size()) / tiles_across_;
     for (std::size_t i = 0; i < scene_.primitives.size(); ++i) {
-      const PixelBox box = bounds(scene_.primitives[i], scene_.rig, camera_);
-      // One pixel more for the rays beside the pixel centres.
+      const PixelBox box = bounds(scene_.primitives[i], scene_.rig, rays_);
+      // One pixel more for the rays beside the pixel centres. What lies outside is in the tiles at
+      // the border, where a lens looks further than a pinhole.
       const auto first = [](double x, int count) {
-        return int(std::clamp(std::floor((x - 1) / kTile), 0.0, double(count)));
+        return int(std::clamp(std::floor((x - 1) / kTile), 0.0, double(count - 1)));
       };
       const auto last = [](double x, int count) {
-        return int(std::clamp(std::floor((x + 1) / kTile), -1.0, double(count - 1)));
+        return int(std::clamp(std::floor((x + 1) / kTile), 0.0, double(count - 1)));
       };
       for (int y = first(box.v0, tiles_down); y <= last(box.v1, tiles_down); ++y)
         for (int x = first(box.u0, tiles_across_); x <= last(box.u1, tiles_across_); ++x)
@@ -129,14 +125,17 @@ class ViewRenderer {
   }
 
   const Tile& tile(int u, int v) const {
-    return tiles_[std::size_t(v / kTile) * tiles_across_ + u / kTile];
+    const Vec3d at = rays_.undistorted(u, v);
+    const int x = std::clamp(int(at.x), 0, options_.width - 1) / kTile;
+    const int y = std::clamp(int(at.y), 0, options_.height - 1) / kTile;
+    return tiles_[std::size_t(y) * tiles_across_ + x];
   }
 
   Hit trace(const Tile& tile, double u, double v) const {
-    const Vec3d direction = camera_.direction(u, v);
+    const Vec3d direction = rays_.direction(u, v);
     Hit nearest;
     for (const std::uint16_t i : tile) {
-      const double z = intersect(scene_.primitives[i], scene_.rig, camera_.origin, direction);
+      const double z = intersect(scene_.primitives[i], scene_.rig, rays_.origin(), direction);
       if (z < nearest.z) nearest = {i, z};
     }
     GIGARAY_CHECK(nearest.primitive >= 0);
@@ -151,13 +150,8 @@ class ViewRenderer {
     return false;
   }
 
-  Colour shade_hit(Hit hit, double u, double v) const {
-    const Primitive& primitive = scene_.primitives[hit.primitive];
-    const Vec3d direction = camera_.direction(u, v);
-    const Vec3d p = camera_.origin + hit.z * direction;
-    return shade(scene_.materials[primitive.material], texture_point(primitive, p),
-                 to_float(surface_normal(primitive, p, direction)),
-                 to_float(normalised(-1.0 * direction)), float(hit.z * scene_.rig.pixel()));
+  Colour colour(Hit hit, double u, double v) const {
+    return shade_hit(scene_, hit, rays_.origin(), rays_.direction(u, v));
   }
 
   /// The mean of n × n rays, in the middles of as many equal parts of the pixel.
@@ -173,7 +167,7 @@ class ViewRenderer {
   Colour edge_pixel(int u, int v) const {
     return average(options_.samples, u, v, [&](double x, double y) {
       if (figure_ && figure_->covers(x, y)) return figure_->colour(x, y);
-      return shade_hit(trace(tile(u, v), x, y), x, y);
+      return colour(trace(tile(u, v), x, y), x, y);
     });
   }
 
@@ -182,10 +176,10 @@ class ViewRenderer {
     if (seen == kFigure)
       return average(n, u, v, [&](double x, double y) { return figure_->colour(x, y); });
     return average(n, u, v, [&](double x, double y) {
-      Hit hit{seen, intersect(scene_.primitives[seen], scene_.rig, camera_.origin,
-                              camera_.direction(x, y))};
+      Hit hit{seen, intersect(scene_.primitives[seen], scene_.rig, rays_.origin(),
+                              rays_.direction(x, y))};
       if (hit.z == kNoHit) hit = trace(tile(u, v), x, y);
-      return shade_hit(hit, x, y);
+      return colour(hit, x, y);
     });
   }
 
@@ -205,7 +199,7 @@ class ViewRenderer {
   const Scene& scene_;
   const SyntheticOptions& options_;
   int view_idx_;
-  Camera camera_;
+  const ViewRays& rays_;
   const Figure* figure_;
   const RunControl& control_;
   int tiles_across_;
@@ -214,12 +208,21 @@ class ViewRenderer {
 
 }  // namespace
 
+Colour shade_hit(const Scene& scene, Hit hit, Vec3d origin, Vec3d direction) {
+  const Primitive& primitive = scene.primitives[hit.primitive];
+  const Vec3d p = origin + hit.z * direction;
+  return shade(scene.materials[primitive.material], texture_point(primitive, p),
+               to_float(surface_normal(primitive, p, direction)),
+               to_float(normalised(-1.0 * direction)), float(hit.z * scene.rig.pixel()));
+}
+
 RenderedView render_view(const Scene& scene, const SyntheticOptions& options, int view_idx,
-                         const View& view, bool has_outlier, const RunControl& control) {
+                         const ViewRays& rays, const std::function<double(double z)>& truth_of,
+                         bool has_outlier, const RunControl& control) {
   constexpr std::uint64_t kFigureKey = 0x0f16;
   const Figure figure(scene.rig, hash(options.seed, kFigureKey, std::uint64_t(view_idx)));
-  return ViewRenderer(scene, options, view_idx, view, has_outlier ? &figure : nullptr, control)
-      .render();
+  return ViewRenderer(scene, options, view_idx, rays, has_outlier ? &figure : nullptr, control)
+      .render(truth_of);
 }
 
 }  // namespace gigaray::synthetic

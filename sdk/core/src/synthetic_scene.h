@@ -3,9 +3,11 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <vector>
 
+#include "gigaray/camera.h"
 #include "gigaray/light_field.h"
 #include "gigaray/synthetic.h"
 #include "synthetic_vec.h"
@@ -41,15 +43,27 @@ struct Rig {
   RigGeometry geometry() const;
 };
 
-/// Where a view's rays start and how its pixels map to directions.
-struct Camera {
-  Camera(const Rig& rig, const View& view);
-  Vec3d origin;
-  double u0 = 0, v0 = 0, inverse_focal = 0;
-  /// Direction with z = 1, so that the parameter along the ray is Z.
-  Vec3d direction(double u, double v) const {
-    return {(u - u0) * inverse_focal, (v - v0) * inverse_focal, 1};
-  }
+/// Where a view's rays start and which way its pixels look. The parameter along a ray is the depth
+/// of the view, its z.
+class ViewRays {
+ public:
+  ViewRays(const Rig& rig, const View& view);  ///< a view of the rig: looks ahead
+  /// A posed view. distortion: k1 of COLMAP's SIMPLE_RADIAL, (x, y) (1 + k1 r²).
+  ViewRays(const gigaray::Camera& camera, double distortion);
+
+  Vec3d origin() const { return origin_; }
+  Vec3d direction(double u, double v) const;
+  /// Place of a pixel in the picture without distortion, px.
+  Vec3d undistorted(double u, double v) const;
+  /// (u, v, z) of a scene point, in the picture without distortion.
+  Vec3d project(Vec3d p) const;
+
+ private:
+  Vec3d origin_;
+  double u0_ = 0, v0_ = 0, focal_ = 0, inverse_focal_ = 0;
+  bool is_posed_ = false;
+  Vec3d right_{1, 0, 0}, down_{0, 1, 0}, ahead_{0, 0, 1};  ///< the view's axes in the scene
+  double distortion_ = 0;
 };
 
 enum class Pattern { kPlain, kNoise, kBricks, kPlanks, kMarble, kChecks };
@@ -90,8 +104,8 @@ struct Primitive {
 
 inline constexpr double kNoHit = std::numeric_limits<double>::infinity();
 
-/// Z of the first hit of the ray origin + Z direction (direction.z = 1), or kNoHit. Exact up to
-/// rounding: closed forms only.
+/// Parameter k of the first hit of the ray origin + k direction, or kNoHit. Exact up to rounding:
+/// closed forms only.
 double intersect(const Primitive& primitive, const Rig& rig, Vec3d origin, Vec3d direction);
 
 /// Unit normal at a point of the surface, on the side of the viewer.
@@ -105,7 +119,7 @@ Vec3f texture_point(const Primitive& primitive, Vec3d p);
 struct PixelBox {
   double u0, u1, v0, v1;
 };
-PixelBox bounds(const Primitive& primitive, const Rig& rig, const Camera& camera);
+PixelBox bounds(const Primitive& primitive, const Rig& rig, const ViewRays& rays);
 
 /// A rig and what stands before it. One primitive at least fills the picture of every view.
 struct Scene {
@@ -120,11 +134,24 @@ Scene build_scene(const SyntheticOptions& options);
 /// Names and positions of the views, numbered as in SyntheticLightField.
 std::vector<View> make_views(const SyntheticOptions& options);
 
+/// The nearest surface along a ray.
+struct Hit {
+  int primitive = -1;
+  double z = kNoHit;
+};
+
+/// Colour of a hit, lit.
+Colour shade_hit(const Scene& scene, Hit hit, Vec3d origin, Vec3d direction);
+
 struct RenderedView {
   Image<std::uint16_t> picture;
-  FloatMap disparity;
+  FloatMap truth;  ///< truth_of(z) for the ray of each pixel centre
 };
 RenderedView render_view(const Scene& scene, const SyntheticOptions& options, int view_idx,
-                         const View& view, bool has_outlier, const RunControl& control);
+                         const ViewRays& rays, const std::function<double(double z)>& truth_of,
+                         bool has_outlier, const RunControl& control);
+
+/// Views with something that walks through: the share of them, those with the smallest hashes.
+std::vector<bool> choose_outliers(const SyntheticOptions& options, int num_views);
 
 }  // namespace gigaray::synthetic
