@@ -4,8 +4,10 @@
 
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <sstream>
 #include <string>
 #include <tuple>
@@ -18,6 +20,7 @@
 #include "gigaray/adapters/maps.h"
 #include "gigaray/adapters/pictures.h"
 #include "gigaray/synthetic.h"
+#include "synthetic_photographs.h"
 
 namespace gigaray::cli {
 namespace {
@@ -31,6 +34,8 @@ struct SynthOptions {
   int views = 17;
   std::string grid;  ///< "9x9"; empty: a row of `views`
   std::pair<double, double> disparity{-1, 1};
+  std::optional<SyntheticPath::Shape> shape;  ///< photographs along a path
+  SyntheticPath path;
 };
 
 /// The numbers of "9x7".
@@ -58,6 +63,11 @@ void add_origin(const fs::path& description, const SyntheticOptions& scene) {
 void synthesise(SynthOptions options, const RunControl& control) {
   SyntheticOptions& scene = options.scene;
   scene.views_s = options.views;
+  if (options.shape) {
+    options.path.shape = *options.shape;
+    write_synthetic_photographs(options.out, scene, options.path, control);
+    return;
+  }
   if (!options.grid.empty()) std::tie(scene.views_s, scene.views_t) = parse_grid(options.grid);
   scene.disparity = {options.disparity.first, options.disparity.second};
   const LightField light_field = describe_synthetic(scene);
@@ -84,10 +94,36 @@ void synthesise(SynthOptions options, const RunControl& control) {
              scene.disparity.max, (options.out / "truth").string());
 }
 
+/// Photographs from anywhere instead of parallel views.
+void add_path(CLI::App& app, SynthOptions& options, CLI::Option& grid, CLI::Option& disparity) {
+  using Shape = SyntheticPath::Shape;
+  const std::map<std::string, Shape> shapes = {
+      {"line", Shape::kLine}, {"arc", Shape::kArc}, {"walk", Shape::kWalk}};
+  auto* path = app.add_option("--path", options.shape,
+                              "Photographs with exact depth and a COLMAP model, taken along a "
+                              "line, an arc or a walk; the scene is 1 to 2.5 m away")
+                   ->transform(CLI::CheckedTransformer(shapes))
+                   ->option_text("line|arc|walk")
+                   ->excludes(&grid)
+                   ->excludes(&disparity);
+  const auto add = [&](const char* name, double& value, const char* help) {
+    app.add_option(name, value, help)->capture_default_str()->needs(path);
+  };
+  add("--extent", options.path.extent, "Length of the path, m");
+  add("--spacing-noise", options.path.spacing_noise,
+      "Standard deviation of the steps along it, of the mean step");
+  add("--off-line", options.path.off_line, "Standard deviation of the places beside it, m");
+  add("--rotation-noise", options.path.rotation_noise,
+      "Standard deviation of the camera's rotations, degrees about each axis");
+  add("--distortion", options.path.distortion, "k1 of a SIMPLE_RADIAL lens");
+}
+
 }  // namespace
 
 Run synth_command(CLI::App& app) {
-  app.description("Render a synthetic light field with exact disparity for every view");
+  app.description(
+      "Render a synthetic light field with exact disparity for every view, or photographs with "
+      "exact depth");
   auto options = std::make_shared<SynthOptions>();
   SyntheticOptions& scene = options->scene;
   app.add_option("SCENE", scene.scene,
@@ -98,13 +134,15 @@ Run synth_command(CLI::App& app) {
   app.add_option("--height", scene.height, "px")->capture_default_str();
   auto* views = app.add_option("--views", options->views, "Views in a row: a 3D light field")
                     ->capture_default_str();
-  app.add_option("--grid", options->grid, "Views across x down, as in 9x9: a 4D light field")
-      ->excludes(views)
-      ->type_name("SxT");
-  app.add_option("--disparity", options->disparity,
-                 "Of the farthest and the nearest surface, px per view step")
-      ->type_name("MIN MAX")
-      ->capture_default_str();
+  auto* grid =
+      app.add_option("--grid", options->grid, "Views across x down, as in 9x9: a 4D light field")
+          ->excludes(views)
+          ->type_name("SxT");
+  auto* disparity = app.add_option("--disparity", options->disparity,
+                                   "Of the farthest and the nearest surface, px per view step")
+                        ->type_name("MIN MAX")
+                        ->capture_default_str();
+  add_path(app, *options, *grid, *disparity);
   app.add_option("--noise", scene.noise, "Standard deviation of sensor noise, of a full range of 1")
       ->capture_default_str();
   app.add_option("--outliers", scene.outliers,

@@ -28,9 +28,9 @@ fs::path temporary_beside(const fs::path& path) {
                                std::to_string(getpid()) + "-" + std::to_string(counter++));
 }
 
-// "format" in the folder's gigaray.json; empty when there is none.
-std::string format_of(const fs::path& folder) {
-  std::ifstream file(folder / "gigaray.json");
+// "format" in a JSON file; empty when there is none.
+std::string format_of(const fs::path& description) {
+  std::ifstream file(description);
   const auto json = nlohmann::json::parse(file, nullptr, false);
   if (!json.is_object()) return {};
   const auto format = json.find("format");
@@ -57,8 +57,8 @@ void write_file_atomically(const fs::path& path, std::string_view bytes) {
   }
 }
 
-AtomicFolder::AtomicFolder(const fs::path& target, std::string format)
-    : format_(std::move(format)) {
+AtomicFolder::AtomicFolder(const fs::path& target, std::string format, std::string description)
+    : format_(std::move(format)), description_(std::move(description)) {
   std::error_code error;
   // Without links and "." parts: the folder is renamed, which needs its own name.
   target_ = fs::weakly_canonical(fs::absolute(target), error);
@@ -85,7 +85,7 @@ void AtomicFolder::check_target() const {
                 target_.string() + ": is a file; name a folder for the output");
   const bool empty = fs::is_empty(target_, error);
   if (error) cannot_write(target_, error);
-  if (!empty && format_of(target_) != format_)
+  if (!empty && format_of(target_ / description_) != format_)
     throw Error(ErrorCode::kInvalidArgument,
                 target_.string() +
                     ": is not empty and no earlier output of this command; name "

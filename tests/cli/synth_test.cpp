@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Gigaray authors
-#include "gigaray/synthetic.h"
+#include "gigaray/synthetic_capture.h"
 
 #include <gtest/gtest.h>
 
@@ -59,6 +59,54 @@ TEST_F(SynthCommand, WritesAGridOfSixteenBits) {
   EXPECT_TRUE(names_in("made").contains("view_02_01.png"));
 }
 
+TEST_F(SynthCommand, WritesPhotographsThatOpenWithTheirCameras) {
+  const Result result = run(std::string("synth planes -o made --path walk --views 3 --extent 0.4 "
+                                        "--off-line 0.01 --rotation-noise 1") +
+                            kSmall);
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(names_in("made"), (Names{"images", "sparse", "synthetic.json", "truth"}));
+  EXPECT_EQ(names_in("made/truth"), (Names{"view_000.pfm", "view_001.pfm", "view_002.pfm"}));
+
+  SyntheticOptions options;
+  options.scene = "planes";
+  options.width = 40;
+  options.height = 31;
+  options.views_s = 3;
+  options.samples = 2;
+  SyntheticPath path;
+  path.extent = 0.4;
+  path.off_line = 0.01;
+  path.rotation_noise = 1;
+  const SyntheticCapture capture = describe_synthetic_capture(options, path);
+  const LightField opened = open_light_field(folder / "made");
+  EXPECT_EQ(opened.kind, LightFieldKind::kUnstructured);
+  ASSERT_EQ(opened.num_views(), 3);
+  for (int i = 0; i < 3; ++i) {
+    const Camera &read = opened.cameras[i], &made = capture.cameras[i];
+    EXPECT_EQ(opened.views[i].name, capture.names[i]);
+    EXPECT_TRUE(read.rotation.isApprox(made.rotation, 1e-9));
+    EXPECT_TRUE(read.translation.isApprox(made.translation, 1e-9));
+    EXPECT_NEAR(read.focal_u, made.focal_u, 1e-9);
+    EXPECT_NEAR(read.centre_v, made.centre_v, 1e-9);
+    ASSERT_TRUE(read.inverse_depth);
+    EXPECT_LT(read.inverse_depth->max, 1.3);  // nothing is nearer than 0.9
+  }
+  render_synthetic_capture(
+      options, path, RunControl(), [&](int i, Image<std::uint16_t> picture, FloatMap depth) {
+        EXPECT_EQ(opened.pixels->read(i), picture);
+        EXPECT_EQ(read_pfm(folder / "made/truth" / (capture.names[i] + ".pfm")), depth);
+      });
+
+  // Its own output is replaced; the lens is in the model.
+  ASSERT_EQ(
+      run(std::string("synth planes -o made --path line --views 2 --distortion -0.1") + kSmall)
+          .exit_code,
+      0);
+  EXPECT_EQ(names_in("made/images"), (Names{"view_000.png", "view_001.png"}));
+  EXPECT_NE(text_of("made/sparse/0/cameras.txt").find("SIMPLE_RADIAL"), std::string::npos);
+  expect_failure("synth planes -o made --views 3", 2, "made", "not empty");
+}
+
 TEST_F(SynthCommand, ReplacesItsOwnOutputAndNothingElse) {
   ASSERT_EQ(run(std::string("synth wall -o made --views 5") + kSmall).exit_code, 0);
   ASSERT_EQ(run(std::string("synth wall -o made --views 2") + kSmall).exit_code, 0);
@@ -82,6 +130,10 @@ TEST_F(SynthCommand, WrongUsageIsOneLineAndLeavesNothing) {
   expect_failure("synth wall -o x --disparity 1 0", 2, "disparity", "1 0");
   expect_failure("synth wall -o x --seed -1", 2, "--seed", "-1");
   expect_failure("synth wall -o x --noise lots", 2, "--noise", "lots");
+  expect_failure("synth wall -o x --path circle", 2, "--path", "circle");
+  expect_failure("synth wall -o x --path walk --grid 3x3", 2, "--grid", "--path");
+  expect_failure("synth wall -o x --extent 1", 2, "--extent", "--path");
+  expect_failure("synth wall -o x --path walk --extent 9", 2, "extent", "9");
   EXPECT_EQ(names_in("."), Names{});
 }
 

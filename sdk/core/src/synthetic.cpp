@@ -9,6 +9,7 @@
 
 #include "for_each_view.h"
 #include "synthetic_noise.h"
+#include "synthetic_options.h"
 #include "synthetic_scene.h"
 
 namespace gigaray {
@@ -24,6 +25,10 @@ std::string to_text(double x) {
   return text;
 }
 
+}  // namespace
+
+namespace synthetic {
+
 void require(bool holds, const std::string& field, const std::string& value,
              const std::string& wanted) {
   if (!holds)
@@ -35,10 +40,6 @@ void require_range(const std::string& field, double value, double low, double hi
   require(value >= low && value <= high, field, to_text(value),
           "from " + to_text(low) + " to " + to_text(high));
 }
-
-}  // namespace
-
-namespace synthetic {
 
 std::vector<bool> choose_outliers(const SyntheticOptions& options, int num_views) {
   constexpr std::uint64_t kChoiceKey = 0xc401ce;
@@ -71,6 +72,8 @@ std::vector<View> make_views(const SyntheticOptions& options) {
 }  // namespace synthetic
 
 void SyntheticOptions::check() const {
+  using synthetic::require;
+  using synthetic::require_range;
   const auto& names = synthetic_scene_names();
   std::string known;
   for (const std::string& name : names) known += (known.empty() ? "" : ", ") + name;

@@ -20,7 +20,7 @@ using Colour = Vec3f;
 
 /// Parallel pinhole cameras whose pictures are shifted so that disparity is signed.
 /// A point (X, Y, Z) is seen in view (s, t), with d = near_disparity / Z + offset, at
-/// u = cx + focal X / Z + s d, v = cy + focal Y / Z + t d (the sign of light_field.h).
+/// u = cx + focal X / Z - s d, v = cy + focal Y / Z - t d (the sign of light_field.h).
 /// The nearest surfaces stand at Z = 1, the farthest at Z = far_z.
 struct Rig {
   explicit Rig(const SyntheticOptions& options);

@@ -22,10 +22,11 @@ void write_file_atomically(const std::filesystem::path& path, std::string_view b
 class AtomicFolder {
  public:
   /// Creates TARGET.partial-<process id> beside `target`, and the folders above. A target that
-  /// exists is accepted when it is an empty folder, or when its gigaray.json has "format":
-  /// `format`, an earlier output of the same kind: commit() replaces it. Anything else is refused
+  /// exists is accepted when it is an empty folder, or when its `description` has
+  /// "format": `format`, an earlier output of the same kind: commit() replaces it. Anything else is refused
   /// with Error(kInvalidArgument); Error(kIo) when the place can't be written.
-  AtomicFolder(const std::filesystem::path& target, std::string format);
+  AtomicFolder(const std::filesystem::path& target, std::string format,
+               std::string description = "gigaray.json");
   ~AtomicFolder();
   AtomicFolder(const AtomicFolder&) = delete;
   AtomicFolder& operator=(const AtomicFolder&) = delete;
@@ -41,7 +42,7 @@ class AtomicFolder {
 
   std::filesystem::path target_;
   std::filesystem::path partial_;
-  std::string format_;
+  std::string format_, description_;
 };
 
 }  // namespace gigaray

@@ -36,7 +36,7 @@ struct SyntheticOptions {
 };
 
 /// The light field with its exact disparity, one map per view, same order as the views. They are
-/// numbered as the camera goes right, then down, which is the usual order of pictures; s and t fall
+/// numbered as the camera goes right, then down, which is the usual order of pictures; s and t rise
 /// with the number (View). "view_007" in a row, "view_TT_SS" in a grid.
 struct SyntheticLightField {
   LightField light_field;

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Gigaray authors
+#include "synthetic_photographs.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "gigaray/adapters/atomic_output.h"
+#include "gigaray/adapters/colmap_model.h"
+#include "gigaray/adapters/maps.h"
+#include "gigaray/adapters/pictures.h"
+
+namespace gigaray::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::ordered_json;
+
+constexpr const char* kDescription = "synthetic.json";
+constexpr const char* kFormat = "gigaray synthetic photographs";
+
+std::string file_of(const std::string& view) { return view + ".png"; }
+
+ColmapModel colmap_model(const SyntheticCapture& capture, double distortion) {
+  // COLMAP's pixels have their corner, not their centre, at integers.
+  constexpr double kCorner = 0.5;
+  constexpr std::uint32_t kCameraId = 1;
+  ColmapModel model;
+  const Camera& camera = capture.cameras.front();
+  model.cameras[kCameraId] = {
+      distortion == 0 ? "SIMPLE_PINHOLE" : "SIMPLE_RADIAL",
+      camera.width,
+      camera.height,
+      {camera.focal_u, camera.centre_u + kCorner, camera.centre_v + kCorner}};
+  if (distortion != 0) model.cameras[kCameraId].params.push_back(distortion);
+  for (std::size_t i = 0; i < capture.cameras.size(); ++i) {
+    ColmapModel::Image image;
+    image.id = std::uint32_t(i + 1);
+    image.rotation = Eigen::Quaterniond(capture.cameras[i].rotation).normalized();
+    image.translation = capture.cameras[i].translation;
+    image.camera_id = kCameraId;
+    image.name = file_of(capture.names[i]);
+    model.images.push_back(std::move(image));
+  }
+  for (const SyntheticCapture::Point& seen : capture.points) {
+    ColmapModel::Point point;
+    point.id = model.points.size() + 1;
+    point.position = seen.position;
+    point.rgb = seen.rgb;
+    point.error = 0;
+    for (const SyntheticCapture::Sight& sight : seen.sights) {
+      ColmapModel::Image& image = model.images[sight.view_idx];
+      point.track.push_back({image.id, std::uint32_t(image.features.size())});
+      image.features.push_back({sight.pixel.x() + kCorner, sight.pixel.y() + kCorner, point.id});
+    }
+    model.points.push_back(std::move(point));
+  }
+  return model;
+}
+
+std::string description(const SyntheticOptions& options, const SyntheticPath& path) {
+  const char* shapes[] = {"line", "arc", "walk"};
+  const ordered_json root = {{"format", kFormat},
+                             {"unit", "m"},
+                             {"scene", options.scene},
+                             {"seed", options.seed},
+                             {"noise", options.noise},
+                             {"outliers", options.outliers},
+                             {"bit_depth", options.bit_depth},
+                             {"samples", options.samples},
+                             {"path", shapes[int(path.shape)]},
+                             {"extent", path.extent},
+                             {"spacing_noise", path.spacing_noise},
+                             {"off_line", path.off_line},
+                             {"rotation_noise", path.rotation_noise},
+                             {"distortion", path.distortion}};
+  return root.dump(2) + "\n";
+}
+
+}  // namespace
+
+void write_synthetic_photographs(const fs::path& out_folder, const SyntheticOptions& options,
+                                 const SyntheticPath& path, const RunControl& control) {
+  const SyntheticCapture capture = describe_synthetic_capture(options, path);
+  AtomicFolder out(out_folder, kFormat, kDescription);
+  for (const char* name : {"images", "truth"}) fs::create_directory(out.path() / name);
+  render_synthetic_capture(
+      options, path, control, [&](int view_idx, Image<std::uint16_t> picture, FloatMap depth) {
+        const std::string& view = capture.names[view_idx];
+        write_png(out.path() / "images" / file_of(view), picture, options.bit_depth);
+        write_pfm(out.path() / "truth" / (view + ".pfm"), depth);
+      });
+  write_colmap_model(out.path() / "sparse" / "0", colmap_model(capture, path.distortion),
+                     ColmapFormat::kText);
+  write_file_atomically(out.path() / kDescription, description(options, path));
+  control.throw_if_cancelled();
+  out.commit();
+  fmt::print("{}: {} photographs of {} × {} px; their cameras in {}, exact depth in {}\n",
+             out_folder.string(), capture.names.size(), options.width, options.height,
+             (out_folder / "sparse" / "0").string(), (out_folder / "truth").string());
+}
+
+}  // namespace gigaray::cli
