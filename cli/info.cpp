@@ -219,7 +219,8 @@ Run info_command(CLI::App& app) {
   add_memory_option(app, options->memory_gib);
   app.add_flag("--json", options->json, "Print JSON");
   return [options](const RunControl&) {
-    const InputOptions& input = options->input;
+    InputOptions& input = options->input;
+    input.input = folder_of_photographs(input.input);
     if (is_plain_folder(input.input, input.open))
       if (const std::string why = why_no_series(input.input); !why.empty())
         throw Error(ErrorCode::kBadInput,

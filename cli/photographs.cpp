@@ -76,8 +76,9 @@ LightField find_cameras(const InputOptions& input, const fs::path& work,
 
 }  // namespace
 
-LightField open_or_find_cameras(const InputOptions& input, const fs::path& output,
+LightField open_or_find_cameras(InputOptions input, const fs::path& output,
                                 const RunControl& control) {
+  input.input = folder_of_photographs(input.input);
   const bool states_row = input.open.direction != Travel::kAuto || input.open.lenslet.columns > 0;
   if (states_row || !is_plain_folder(input.input, input.open)) return input.open_light_field();
   std::string why = input.find_cameras ? "" : why_no_row(input, control);

@@ -9,7 +9,7 @@
 #include "camera_position.h"
 #include "colmap_folders.h"
 #include "mask_folder.h"
-#include "picture_files.h"
+#include "picture_folder.h"
 #include "posed_pictures.h"
 #include "readers.h"
 #include "view_names.h"
@@ -46,51 +46,17 @@ std::vector<fs::path> models_of(const fs::path& input) {
   return {};
 }
 
-std::size_t count_there(const fs::path& folder, const std::vector<std::string>& names) {
-  return std::size_t(std::count_if(names.begin(), names.end(), [&](const std::string& name) {
-    std::error_code ignored;
-    return fs::is_regular_file(folder / name, ignored);
-  }));
-}
-
-/// The folder that the names of the images are relative to.
-fs::path folder_of_pictures(const fs::path& model, const std::vector<std::string>& names,
-                            const fs::path& stated) {
+/// Where the pictures of a model may lie.
+std::vector<fs::path> folders_around(const fs::path& model) {
+  // WORKSPACE/sparse/0 is three deep at most.
+  fs::path above = fs::absolute(model).lexically_normal();
+  if (!above.has_filename()) above = above.parent_path();
   std::vector<fs::path> folders;
-  if (!stated.empty()) {
-    folders = {stated};
-  } else {
-    // WORKSPACE/sparse/0 is three deep at most.
-    fs::path above = fs::absolute(model).lexically_normal();
-    if (!above.has_filename()) above = above.parent_path();
-    for (int i = 0; i < 3; ++i, above = above.parent_path()) {
-      folders.push_back(above / "images");
-      folders.push_back(above);
-    }
+  for (int i = 0; i < 3; ++i, above = above.parent_path()) {
+    folders.push_back(above / "images");
+    folders.push_back(above);
   }
-  fs::path best = folders.front();
-  std::size_t most = 0;
-  for (const fs::path& folder : folders)
-    if (const std::size_t count = count_there(folder, names); count > most) {
-      most = count;
-      best = folder;
-    }
-  if (most == names.size()) return best;
-  const std::string all = std::to_string(names.size());
-  if (most == 0)
-    throw Error(ErrorCode::kBadInput, model.string() + ": none of the " + all +
-                                          " pictures that the model names was found" +
-                                          (stated.empty() ? "" : " in " + stated.string()) +
-                                          " (the first is " + names.front() +
-                                          "); name their folder with --images");
-  const auto first = std::find_if(names.begin(), names.end(), [&](const std::string& name) {
-    return count_there(best, {name}) == 0;
-  });
-  throw Error(ErrorCode::kBadInput,
-              (best / *first).string() + ": is missing, one of " +
-                  std::to_string(names.size() - most) + " of the " + all +
-                  " pictures that the model names; put them there or name their folder with "
-                  "--images");
+  return folders;
 }
 
 /// Depths of the sparse points, per image.
@@ -165,7 +131,9 @@ LightField open_model(FoundColmapModel found, const OpenOptions& options,
             [](const auto& a, const auto& b) { return a.name < b.name; });
   std::vector<std::string> names;
   for (const ColmapModel::Image& image : images) names.push_back(image.name);
-  const fs::path folder = folder_of_pictures(found.folder, names, options.images);
+  const fs::path folder = folder_of_pictures(
+      found.folder,
+      options.images.empty() ? folders_around(found.folder) : std::vector{options.images}, names);
   const std::vector<std::string> views = view_names(names);
 
   const SparseDepths depths(found.model);

@@ -9,14 +9,14 @@
 
 namespace gigaray {
 
-/// Reads `count` values of type T in the given byte order into floats.
-template <class T = float>
-void load_floats(const char* bytes, std::endian order, float* values, std::size_t count) {
+/// Reads `count` values of type T in the given byte order.
+template <class T = float, class To>
+void load_floats(const char* bytes, std::endian order, To* values, std::size_t count) {
   for (std::size_t i = 0; i < count; ++i) {
     char raw[sizeof(T)];
     std::copy_n(bytes + i * sizeof(T), sizeof(T), raw);
     if (order != std::endian::native) std::reverse(raw, raw + sizeof(T));
-    values[i] = float(std::bit_cast<T>(raw));
+    values[i] = To(std::bit_cast<T>(raw));
   }
 }
 

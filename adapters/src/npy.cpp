@@ -2,27 +2,29 @@
 // Copyright (c) 2026 The Gigaray authors
 // NumPy arrays, https://numpy.org/doc/stable/reference/generated/numpy.lib.format.html: magic,
 // version, length of the header, a Python dictionary as text, then the values. Shape (v, u).
+#include <algorithm>
 #include <bit>
 #include <regex>
 
 #include "float_bytes.h"
 #include "gigaray/adapters/atomic_output.h"
 #include "gigaray/adapters/maps.h"
+#include "npy_matrix.h"
 #include "text.h"
 
 namespace gigaray {
 namespace {
 
 constexpr std::string_view kMagic = "\x93NUMPY";
-constexpr std::size_t kAlignment = 64;  // of the first value
-constexpr double kMaxSize = 1 << 20;    // px per axis
+constexpr std::size_t kAlignment = 64;    // of the first value
+constexpr double kMaxSize = 1 << 20;      // per axis
+constexpr std::size_t kMaxHeader = 4096;  // of a plain array it is some 100 bytes
 
 }  // namespace
 
-FloatMap read_npy(const std::filesystem::path& path) {
-  const std::string bytes = read_bytes(path);
+NpyMatrix parse_npy_matrix(std::string_view bytes, const std::string& where) {
   const auto bad = [&](const std::string& what) {
-    return Error(ErrorCode::kBadInput, path.string() + ": " + what);
+    return Error(ErrorCode::kBadInput, where + ": " + what);
   };
   if (!bytes.starts_with(kMagic) || bytes.size() < 12) throw bad("is no NumPy file");
   const auto byte = [&](std::size_t i) {
@@ -33,7 +35,8 @@ FloatMap read_npy(const std::filesystem::path& path) {
   const std::size_t length =
       byte(8) | byte(9) << 8 | (version_1 ? 0 : byte(10) << 16 | byte(11) << 24);
   if (length > bytes.size() - begin) throw bad("is cut short in its header");
-  const std::string header = bytes.substr(begin, length);
+  if (length > kMaxHeader) throw bad("has no header of a plain array");
+  const std::string header(bytes.substr(begin, length));
 
   std::smatch type, shape;
   static const std::regex kType(R"('descr'\s*:\s*'([<>])f([48])')");
@@ -42,23 +45,30 @@ FloatMap read_npy(const std::filesystem::path& path) {
     throw bad("holds another type than float32 or float64");
   if (header.find("'fortran_order': False") == std::string::npos)
     throw bad("is stored in Fortran order; save it with numpy.ascontiguousarray");
-  if (!std::regex_search(header, shape, kShape)) throw bad("has not two dimensions (v, u)");
-  const double height = *parse_number(shape[1].str()), width = *parse_number(shape[2].str());
-  if (width < 1 || height < 1 || width > kMaxSize || height > kMaxSize)
+  if (!std::regex_search(header, shape, kShape)) throw bad("has not two dimensions");
+  const double rows = *parse_number(shape[1].str()), columns = *parse_number(shape[2].str());
+  if (rows < 1 || columns < 1 || rows > kMaxSize || columns > kMaxSize)
     throw bad("has no valid size");
 
   const bool is_double = type[2] == "8";
-  FloatMap map;
-  const std::size_t count = std::size_t(width) * std::size_t(height);
+  const std::size_t count = std::size_t(rows) * std::size_t(columns);
   if (bytes.size() - begin - length != count * (is_double ? 8 : 4))
     throw bad("is cut short or too long for its shape");
-  map = FloatMap(int(width), int(height));
+  NpyMatrix matrix{int(rows), int(columns), std::vector<double>(count)};
   const char* values = bytes.data() + begin + length;
   const auto order = type[1] == "<" ? std::endian::little : std::endian::big;
   if (is_double)
-    load_floats<double>(values, order, map.data(), count);
+    load_floats<double>(values, order, matrix.values.data(), count);
   else
-    load_floats<float>(values, order, map.data(), count);
+    load_floats<float>(values, order, matrix.values.data(), count);
+  return matrix;
+}
+
+FloatMap read_npy(const std::filesystem::path& path) {
+  const NpyMatrix matrix = parse_npy_matrix(read_bytes(path), path.string());
+  FloatMap map(matrix.columns, matrix.rows);
+  std::transform(matrix.values.begin(), matrix.values.end(), map.data(),
+                 [](double value) { return float(value); });
   return map;
 }
 

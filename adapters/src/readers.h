@@ -14,10 +14,11 @@ std::unique_ptr<const Reader> hdf5_reader();
 std::unique_ptr<const Reader> stanford_reader();
 std::unique_ptr<const Reader> lenslet_reader();
 std::unique_ptr<const Reader> colmap_reader();
+std::unique_ptr<const Reader> transforms_json_reader();
+std::unique_ptr<const Reader> llff_reader();
+std::unique_ptr<const Reader> middlebury_par_reader();
+std::unique_ptr<const Reader> strecha_reader();
 std::unique_ptr<const Reader> named_grid_reader();
 std::unique_ptr<const Reader> image_sequence_reader();
-
-/// Recognises the formats that this version can't read and says so.
-std::vector<std::unique_ptr<const Reader>> later_formats();
 
 }  // namespace gigaray

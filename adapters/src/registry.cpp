@@ -4,6 +4,7 @@
 
 #include "gigaray/adapters/photographs.h"
 
+#include <algorithm>
 #include <system_error>
 #include <utility>
 
@@ -23,7 +24,10 @@ std::vector<std::unique_ptr<const Reader>> all_readers() {
   all.push_back(stanford_reader());
   all.push_back(lenslet_reader());
   all.push_back(colmap_reader());
-  for (auto& reader : later_formats()) all.push_back(std::move(reader));
+  all.push_back(transforms_json_reader());
+  all.push_back(llff_reader());
+  all.push_back(middlebury_par_reader());
+  all.push_back(strecha_reader());
   all.push_back(named_grid_reader());
   all.push_back(image_sequence_reader());
   return all;
@@ -63,6 +67,13 @@ const Reader& reader_for(const fs::path& input, const OpenOptions& options) {
 const std::vector<std::unique_ptr<const Reader>>& readers() {
   static const auto all = all_readers();
   return all;
+}
+
+fs::path folder_of_photographs(const fs::path& input) {
+  const bool is_known = std::any_of(readers().begin(), readers().end(), [&](const auto& reader) {
+    return reader->probe(input).score > 0;
+  });
+  return !is_known && !pictures_of(input / "images").empty() ? input / "images" : input;
 }
 
 bool is_plain_folder(const fs::path& input, const OpenOptions& options) {

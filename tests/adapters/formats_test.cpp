@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Gigaray authors
-// HCI scenes, Stanford archives, gigaray.json, and what can't be read yet.
+// HCI scenes, Stanford archives, gigaray.json.
 #include "adapters/adapters_test.h"
 #include "gigaray/adapters/light_field_json.h"
 #include "gigaray/adapters/registry.h"
@@ -249,20 +249,6 @@ TEST_F(WrittenLightField, NameThatLeavesTheOutputFolderIsRefused) {
 TEST_F(WrittenLightField, MissingPictureIsNamed) {
   std::filesystem::remove(folder / "pictures/b.png");
   expect_bad_input("b.png");
-}
-
-TEST_F(Registry, FormatsOfLaterVersionsAreNamed) {
-  const auto expect_named = [&](const std::string& file, const std::string& word) {
-    const auto input = folder / word;
-    std::filesystem::create_directories((input / file).parent_path());
-    std::ofstream(input / file) << "x";
-    save(word + "/v1.png");
-    save(word + "/v2.png");
-    expect_error(ErrorCode::kBadInput, word, [&] { open_light_field(input); });
-    expect_error(ErrorCode::kBadInput, "not readable yet", [&] { open_light_field(input); });
-  };
-  expect_named("transforms.json", "transforms.json");
-  expect_named("poses_bounds.npy", "LLFF");
 }
 
 TEST_F(Registry, EveryReaderRefusesAnEmptyFolderAndAMissingOne) {

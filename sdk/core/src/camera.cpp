@@ -56,19 +56,23 @@ InverseDepthRange all_inverse_depths(const std::vector<Camera>& cameras) {
   return all;
 }
 
+InverseDepthRange widened(const InverseDepthRange& seen) {
+  constexpr double kMargin = 0.2;
+  // Points of one depth alone still leave something to search.
+  const double margin = std::max(kMargin * (seen.max - seen.min), 0.02 * seen.max);
+  return {std::max(0.0, seen.min - margin), seen.max + margin};
+}
+
 std::optional<InverseDepthRange> range_of_depths(std::vector<double> depths) {
   constexpr std::size_t kLeastPoints = 8;
-  constexpr double kPercentile = 0.005, kMargin = 0.2;
+  constexpr double kPercentile = 0.005;
   if (depths.size() < kLeastPoints) return std::nullopt;
   for (double& z : depths) z = 1 / z;
   std::sort(depths.begin(), depths.end());
   const auto percentile = [&](double p) {
     return depths[std::size_t(std::lround(p * double(depths.size() - 1)))];
   };
-  const double low = percentile(kPercentile), high = percentile(1 - kPercentile);
-  // Points of one depth alone still leave something to search.
-  const double margin = std::max(kMargin * (high - low), 0.02 * high);
-  return InverseDepthRange{std::max(0.0, low - margin), high + margin};
+  return widened({percentile(kPercentile), percentile(1 - kPercentile)});
 }
 
 }  // namespace gigaray

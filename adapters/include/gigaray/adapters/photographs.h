@@ -12,6 +12,9 @@
 
 namespace gigaray {
 
+/// The input, or its folder "images" when no reader knows the input itself and pictures lie there.
+std::filesystem::path folder_of_photographs(const std::filesystem::path& input);
+
 /// Is the input a folder of pictures with nothing that says where they were taken?
 bool is_plain_folder(const std::filesystem::path& input, const OpenOptions& options);
 

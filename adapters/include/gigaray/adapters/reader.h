@@ -45,7 +45,7 @@ struct OpenOptions {
 
 /// Recognises what `input` is (registry.h) and opens it. Reads the headers of the pictures, not
 /// their pixels. Throws Error(kBadInput) when nothing fits, saying what is missing; when the format
-/// is known but the data are damaged or contradictory; when it is a format that can't be read yet.
+/// is known but the data are damaged or contradictory.
 /// Throws Error(kInvalidArgument) when an option does not go with the format.
 LightField open_light_field(const std::filesystem::path& input, const OpenOptions& options = {});
 

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Gigaray authors
+// NAME_par.txt of the multi-view sets of Seitz et al. 2006, https://vision.middlebury.edu/mview:
+// the number of pictures, then per line the picture, K and R by rows and t; a scene point X is seen
+// at K (R X + t), pixel centres at integers.
+#include <sstream>
+#include <system_error>
+
+#include "camera_position.h"
+#include "picture_files.h"
+#include "projection.h"
+#include "readers.h"
+#include "stated_views.h"
+#include "text.h"
+
+namespace gigaray {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kName = "Middlebury multi-view";
+
+bool is_par_file(const fs::path& path) {
+  std::error_code ignored;
+  return path.filename().string().ends_with("_par.txt") && fs::is_regular_file(path, ignored);
+}
+
+/// Empty when there is none.
+fs::path par_file_of(const fs::path& input) {
+  if (is_par_file(input)) return input;
+  std::error_code ignored;
+  if (!fs::is_directory(input, ignored)) return {};
+  std::vector<fs::path> found;
+  for (const fs::path& path : files_of(input))
+    if (is_par_file(path)) found.push_back(path);
+  if (found.size() > 1)
+    throw Error(ErrorCode::kBadInput, input.string() + ": holds " + std::to_string(found.size()) +
+                                          " files of cameras; name one of them, such as " +
+                                          found.front().string());
+  return found.empty() ? fs::path() : found.front();
+}
+
+class MiddleburyParReader : public Reader {
+ public:
+  std::string name() const override { return kName; }
+
+  ProbeResult probe(const fs::path& input) const override {
+    return {par_file_of(input).empty() ? 0 : 75, ""};
+  }
+
+  LightField open(const fs::path& input, const OpenOptions& options) const override {
+    refuse_direction(options, "the file of cameras states");
+    const fs::path file = par_file_of(input);
+    return open_stated_views(parse_middlebury_par(read_bytes(file), file.string()), file,
+                             {file.parent_path(), file.parent_path() / "images"}, options, kName);
+  }
+};
+
+}  // namespace
+
+std::vector<StatedView> parse_middlebury_par(std::string_view text, const std::string& where) {
+  constexpr std::size_t kWords = 22;
+  std::istringstream stream{std::string(text)};
+  std::vector<StatedView> views;
+  std::optional<double> stated;
+  std::string line;
+  for (int number = 1; std::getline(stream, line); ++number) {
+    const std::string place = where + ":" + std::to_string(number);
+    const std::vector<std::string> words = split_words(line);
+    if (words.empty()) continue;
+    if (!stated) {
+      stated = words.size() == 1 ? parse_number(words.front()) : std::nullopt;
+      if (!stated) throw Error(ErrorCode::kBadInput, place + ": is not the number of pictures");
+      continue;
+    }
+    if (words.size() != kWords)
+      throw Error(ErrorCode::kBadInput, place + ": has " + std::to_string(words.size()) +
+                                            " words; a picture and 21 numbers are expected");
+    const std::vector<double> numbers = finite_numbers(words, 1, place);
+    StatedView view;
+    view.picture = words.front();
+    set_projection(view, numbers.data(), place);
+    const Eigen::Matrix3d rotation =
+        Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(numbers.data() + 9);
+    const Eigen::Vector3d translation(numbers[18], numbers[19], numbers[20]);
+    set_pose(view, rotation.transpose(), -rotation.transpose() * translation, place);
+    views.push_back(std::move(view));
+  }
+  if (!stated) throw Error(ErrorCode::kBadInput, where + ": is empty");
+  if (*stated != double(views.size()))
+    throw Error(ErrorCode::kBadInput, where + ": states " + std::to_string(views.size()) +
+                                          " cameras, its first line another number; it is cut "
+                                          "short or damaged");
+  return views;
+}
+
+std::unique_ptr<const Reader> middlebury_par_reader() {
+  return std::make_unique<MiddleburyParReader>();
+}
+
+}  // namespace gigaray

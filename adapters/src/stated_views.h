@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Gigaray authors
+#pragma once
+
+#include <Eigen/Core>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "gigaray/adapters/lens.h"
+#include "gigaray/adapters/reader.h"
+#include "gigaray/light_field.h"
+
+namespace gigaray {
+
+/// A view as a file of cameras states it, converted to the convention of camera.h.
+struct StatedView {
+  std::string picture;  ///< relative path, perhaps without its extension; empty: not stated
+  std::string mask;     ///< relative path; empty: none
+  Lens lens;            ///< width 0: for the size of its picture
+  /// Instead of the lens: horizontal field of view of a pinhole, radians.
+  std::optional<double> field_of_view;
+  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
+  Eigen::Vector3d translation = Eigen::Vector3d::Zero();
+  std::optional<InverseDepthRange> inverse_depth;
+};
+
+/// Parsers of one file each: text or bytes, and its name for messages. Throw Error(kBadInput)
+/// beginning with it. They touch no other file.
+std::vector<StatedView> parse_transforms_json(std::string_view text, const std::string& where);
+std::vector<StatedView> parse_poses_bounds(std::string_view bytes, const std::string& where);
+std::vector<StatedView> parse_middlebury_par(std::string_view text, const std::string& where);
+StatedView parse_strecha_camera(std::string_view text, const std::string& where);
+
+/// Sets the pose of a camera that stands at `position`; axes: its right, down and ahead as columns,
+/// in the scene. Rounding in the file is made good; throws Error(kBadInput) when they are no
+/// rotation.
+void set_pose(StatedView& view, const Eigen::Matrix3d& axes, const Eigen::Vector3d& position,
+              const std::string& where);
+
+/// Opens the pictures of views that a file states, every one with `picture`. folders: where they
+/// may lie, unless options.images says it. Throws Error(kBadInput).
+LightField open_stated_views(std::vector<StatedView> views, const std::filesystem::path& file,
+                             const std::vector<std::filesystem::path>& folders,
+                             const OpenOptions& options, const std::string& format);
+
+}  // namespace gigaray
