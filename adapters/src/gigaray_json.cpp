@@ -5,6 +5,7 @@
 #include <system_error>
 
 #include "camera_position.h"
+#include "described_light_field.h"
 #include "gigaray/adapters/atomic_output.h"
 #include "gigaray/adapters/light_field_json.h"
 #include "picture_files.h"
@@ -31,34 +32,34 @@ std::optional<double> optional_number(const json& object, const char* key) {
   return found->get<double>();
 }
 
-void read_views(const json& root, const fs::path& folder, LightField& light_field) {
-  std::vector<fs::path> files;
+void read_views(const json& root, DescribedLightField& described) {
   for (const json& entry : root.at("views")) {
     const View view{entry.at("name"), entry.at("s"), entry.at("t")};
     // It becomes the name of an output folder.
     if (view.name.empty() || view.name.find('/') != std::string::npos || view.name.starts_with('.'))
-      throw Error(ErrorCode::kBadInput, "'" + view.name + "' can't name a view");
-    light_field.views.push_back(view);
-    files.push_back(folder / entry.at("file").get<std::string>());
+      throw Error(ErrorCode::kBadInput, in_quotes(view.name) + " can't name a view");
+    described.light_field.views.push_back(view);
+    described.files.push_back(entry.at("file").get<std::string>());
   }
-  if (!files.empty()) attach_pictures(light_field, std::move(files));
 }
 
-LightField parse(const json& root, const fs::path& folder) {
+DescribedLightField parse(const json& root) {
   const auto bad = [](const std::string& what) { return Error(ErrorCode::kBadInput, what); };
   if (root.at("format") != kLightFieldFormat)
-    throw bad("describes a '" + root.at("format").get<std::string>() + "', not a light field");
+    throw bad("describes a " + in_quotes(root.at("format").get<std::string>()) +
+              ", not a light field");
   if (root.at("version") != kVersion)
-    throw bad("has version " + root.at("version").dump() + "; this program reads version " +
-              std::to_string(kVersion));
-  LightField light_field;
-  read_views(root, folder, light_field);
+    throw bad("has version " + in_quotes(root.at("version").dump()) +
+              "; this program reads version " + std::to_string(kVersion));
+  DescribedLightField described;
+  LightField& light_field = described.light_field;
+  read_views(root, described);
   light_field.kind = kind_from_positions(light_field.views);
   if (root.at("kind") != to_string(light_field.kind))
-    throw bad("states the kind " + root.at("kind").dump() + ", its positions are " +
+    throw bad("states the kind " + in_quotes(root.at("kind").dump()) + ", its positions are " +
               to_string(light_field.kind));
-  if (root.at("width") != light_field.width || root.at("height") != light_field.height)
-    throw bad("states another size than its pictures have");
+  light_field.width = root.at("width");
+  light_field.height = root.at("height");
   if (const auto range = root.find("disparity_range"); range != root.end() && !range->is_null()) {
     light_field.declared_range = DisparityRange{range->at(0), range->at(1)};
     if (!(light_field.declared_range->min < light_field.declared_range->max))
@@ -70,7 +71,7 @@ LightField parse(const json& root, const fs::path& folder) {
     light_field.rig.focus_distance = optional_number(*rig, "focus_distance");
     light_field.rig.unit = rig->value("unit", "");
   }
-  return light_field;
+  return described;
 }
 
 class GigarayJsonReader : public Reader {
@@ -86,22 +87,38 @@ class GigarayJsonReader : public Reader {
   LightField open(const fs::path& input, const OpenOptions& options) const override {
     refuse_direction(options, "gigaray.json states");
     const fs::path path = json_of(input);
-    const auto bad = [&](const std::string& what) {
-      return Error(ErrorCode::kBadInput, path.string() + ": " + what);
-    };
-    const json root = json::parse(read_bytes(path), nullptr, false);
-    if (!root.is_object()) throw bad("is damaged or no JSON object");
+    auto [light_field, names] = parse_light_field_json(read_bytes(path), path.string());
+    std::vector<fs::path> files;
+    for (const std::string& name : names) files.push_back(path.parent_path() / name);
+    const int width = light_field.width, height = light_field.height;
     try {
-      return parse(root, path.parent_path());
-    } catch (const json::exception& problem) {
-      throw bad(std::string("an entry is missing or of the wrong type (") + problem.what() + ")");
+      if (!files.empty()) attach_pictures(light_field, std::move(files));
     } catch (const Error& problem) {
       throw Error(problem.code(), path.string() + ": " + problem.what());
     }
+    if (light_field.width != width || light_field.height != height)
+      throw Error(ErrorCode::kBadInput,
+                  path.string() + ": states another size than its pictures have");
+    return light_field;
   }
 };
 
 }  // namespace
+
+DescribedLightField parse_light_field_json(std::string_view text, const std::string& where) {
+  const auto bad = [&](const std::string& what) {
+    return Error(ErrorCode::kBadInput, where + ": " + what);
+  };
+  const json root = json::parse(text, nullptr, false);
+  if (!root.is_object()) throw bad("is damaged or no JSON object");
+  try {
+    return parse(root);
+  } catch (const json::exception& problem) {
+    throw bad(std::string("an entry is missing or of the wrong type (") + problem.what() + ")");
+  } catch (const Error& problem) {
+    throw bad(problem.what());
+  }
+}
 
 void write_light_field_json(const fs::path& path, const LightField& light_field,
                             const std::vector<std::string>& files) {

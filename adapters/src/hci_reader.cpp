@@ -4,12 +4,11 @@
 // input_CamNNN.png with NNN = row · columns + column from the top left camera, as seen from behind
 // the rig, and parameters.cfg. Parallel cameras, sensors shifted so that focus_distance_m has
 // disparity 0.
-#include <cmath>
 #include <map>
 #include <regex>
-#include <sstream>
 
 #include "camera_position.h"
+#include "hci_parameters.h"
 #include "picture_files.h"
 #include "readers.h"
 #include "text.h"
@@ -41,42 +40,7 @@ std::map<int, fs::path> cameras_of(const fs::path& folder) {
   return cameras;
 }
 
-// "key = value" lines; sections and anything else are passed over.
-class Parameters {
- public:
-  explicit Parameters(const fs::path& path) : path_(path) {
-    std::istringstream stream(read_bytes(path));
-    for (std::string line; std::getline(stream, line);) {
-      const auto equals = line.find('=');
-      if (equals == std::string::npos) continue;
-      const std::string_view text = line;
-      values_[std::string(trimmed(text.substr(0, equals)))] = trimmed(text.substr(equals + 1));
-    }
-  }
-
-  std::optional<double> number(const std::string& key) const {
-    const auto found = values_.find(key);
-    if (found == values_.end()) return std::nullopt;
-    const auto value = parse_number(found->second);
-    if (!value || !std::isfinite(*value))
-      throw Error(ErrorCode::kBadInput, path_.string() + ": " + key + " = '" + found->second +
-                                            "' is not a finite number");
-    return value;
-  }
-
-  int cameras(const std::string& key) const {
-    const double value = number(key).value_or(kUsualCameras);
-    if (value < 1 || value > 1000 || value != std::floor(value))
-      throw Error(ErrorCode::kBadInput, path_.string() + ": " + key + " is no number of cameras");
-    return int(value);
-  }
-
- private:
-  fs::path path_;
-  std::map<std::string, std::string> values_;
-};
-
-void apply(const Parameters& parameters, LightField& light_field) {
+void apply(const HciParameters& parameters, LightField& light_field) {
   const auto low = parameters.number("disp_min"), high = parameters.number("disp_max");
   if (low && high && *low < *high) light_field.declared_range = DisparityRange{*low, *high};
 
@@ -114,10 +78,12 @@ class HciReader : public Reader {
     LightField light_field;
     const fs::path parameter_file = input / "parameters.cfg";
     std::error_code ignored;
-    std::optional<Parameters> parameters;
-    if (fs::exists(parameter_file, ignored)) parameters.emplace(parameter_file);
-    const int columns = parameters ? parameters->cameras("num_cams_x") : kUsualCameras;
-    const int rows = parameters ? parameters->cameras("num_cams_y") : kUsualCameras;
+    std::optional<HciParameters> parameters;
+    if (fs::exists(parameter_file, ignored))
+      parameters.emplace(read_bytes(parameter_file), parameter_file.string());
+    const int columns =
+        parameters ? parameters->cameras("num_cams_x", kUsualCameras) : kUsualCameras;
+    const int rows = parameters ? parameters->cameras("num_cams_y", kUsualCameras) : kUsualCameras;
     const std::string grid = std::to_string(columns) + "×" + std::to_string(rows);
     if (!parameters)
       light_field.notes.push_back(

@@ -3,7 +3,7 @@ include_guard()
 
 add_library(gigaray_warnings INTERFACE)
 target_compile_options(gigaray_warnings INTERFACE -Wall -Wextra -Wno-unused-parameter
-  -Wno-restrict)  # GCC 12 sees overlaps in std::string that are not there
+  $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>)  # GCC 12 sees overlaps in std::string that are not there
 if(GIGARAY_DEVELOPER_MODE)
   target_compile_options(gigaray_warnings INTERFACE -Werror)
 endif()

@@ -216,7 +216,7 @@ TEST_F(WrittenLightField, IsReadBack) {
 
 TEST_F(WrittenLightField, NewerVersionIsRefused) {
   replace("\"version\": 1", "\"version\": 2");
-  expect_bad_input("version 2");
+  expect_bad_input("version '2'");
 }
 
 TEST_F(WrittenLightField, OtherDescriptionIsRefused) {

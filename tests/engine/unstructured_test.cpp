@@ -123,6 +123,16 @@ TEST(UnstructuredRange, IsFoundInThePicturesWhereTheInputStatesNone) {
   EXPECT_GT(accuracy_of(result.view(4).disparity, field.depth[4], 0.01).within, 0.9);
 }
 
+TEST(UnstructuredRange, IsNotLostWhenTwoCamerasStandInOnePlace) {
+  PosedField field = walk();
+  std::vector<Camera>& cameras = field.light_field.cameras;
+  cameras[1].translation =
+      cameras[1].rotation * (-cameras[0].position() + Eigen::Vector3d(1e-15, 0, 0));
+  for (Camera& camera : cameras) camera.inverse_depth.reset();
+  estimate_inverse_depths(field.light_field, RunControl{}, false);
+  for (const Camera& camera : cameras) EXPECT_LT(camera.inverse_depth->max, 100);
+}
+
 TEST(UnstructuredRange, IsTheUsersWhereStated) {
   const PosedField field = walk(6);
   DepthOptions options = few_hypotheses("auto");

@@ -63,16 +63,15 @@ InverseDepthRange widened(const InverseDepthRange& seen) {
   return {std::max(0.0, seen.min - margin), seen.max + margin};
 }
 
-std::optional<InverseDepthRange> range_of_depths(std::vector<double> depths) {
+std::optional<InverseDepthRange> range_of_depths(std::vector<double> depths, double trimmed) {
   constexpr std::size_t kLeastPoints = 8;
-  constexpr double kPercentile = 0.005;
   if (depths.size() < kLeastPoints) return std::nullopt;
   for (double& z : depths) z = 1 / z;
   std::sort(depths.begin(), depths.end());
   const auto percentile = [&](double p) {
     return depths[std::size_t(std::lround(p * double(depths.size() - 1)))];
   };
-  return widened({percentile(kPercentile), percentile(1 - kPercentile)});
+  return widened({percentile(trimmed), percentile(1 - trimmed)});
 }
 
 }  // namespace gigaray

@@ -213,11 +213,15 @@ namespace {
 InverseDepthRange shared_depths(const LightField& light_field, int ref) {
   const std::vector<Camera>& cameras = light_field.cameras;
   const Camera& camera = cameras[ref];
-  double step = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < cameras.size(); ++i)
-    if (int(i) != ref)
-      if (const double d = (cameras[i].position() - camera.position()).norm(); d > 0)
-        step = std::min(step, d);
+  // To the nearest camera, but for one that stands in the same place.
+  constexpr double kSamePlace = 1e-3;  // of the distance to the farthest camera
+  double step = std::numeric_limits<double>::infinity(), farthest = 0;
+  const auto distance = [&](const Camera& other) {
+    return (other.position() - camera.position()).norm();
+  };
+  for (const Camera& other : cameras) farthest = std::max(farthest, distance(other));
+  for (const Camera& other : cameras)
+    if (const double d = distance(other); d > kSamePlace * farthest) step = std::min(step, d);
   constexpr int kSteps = 96;
   constexpr double kNearest = 0.2, kFarthest = 1000;  // steps
   constexpr double kLeastCosine = 0.6;
@@ -312,7 +316,9 @@ void estimate_inverse_depths(LightField& light_field, const RunControl& control,
     std::vector<double> depths;
     for (const Eigen::Vector3d& point : points)
       if (cameras[i].sees(point)) depths.push_back(cameras[i].project(point).z());
-    if (const auto range = range_of_depths(std::move(depths))) cameras[i].inverse_depth = range;
+    constexpr double kTrimmed = 0.02;  // a coarse search errs more often than sparse points
+    if (const auto range = range_of_depths(std::move(depths), kTrimmed))
+      cameras[i].inverse_depth = range;
   }
 }
 

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Gigaray authors
+#include "hci_parameters.h"
+
+#include <cmath>
+#include <sstream>
+
+#include "gigaray/error.h"
+#include "text.h"
+
+namespace gigaray {
+
+HciParameters::HciParameters(std::string_view text, std::string where) : where_(std::move(where)) {
+  std::istringstream stream{std::string(text)};
+  for (std::string line; std::getline(stream, line);) {
+    const auto equals = line.find('=');
+    if (equals == std::string::npos) continue;
+    const std::string_view words = line;
+    values_[std::string(trimmed(words.substr(0, equals)))] = trimmed(words.substr(equals + 1));
+  }
+}
+
+std::optional<double> HciParameters::number(const std::string& key) const {
+  const auto found = values_.find(key);
+  if (found == values_.end()) return std::nullopt;
+  const auto value = parse_number(found->second);
+  if (!value || !std::isfinite(*value))
+    throw Error(ErrorCode::kBadInput,
+                where_ + ": " + key + " = " + in_quotes(found->second) + " is not a finite number");
+  return value;
+}
+
+int HciParameters::cameras(const std::string& key, int usual) const {
+  const double value = number(key).value_or(usual);
+  if (value < 1 || value > 1000 || value != std::floor(value))
+    throw Error(ErrorCode::kBadInput, where_ + ": " + key + " is no number of cameras");
+  return int(value);
+}
+
+}  // namespace gigaray

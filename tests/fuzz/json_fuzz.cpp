@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Gigaray authors
+// gigaray.json and transforms.json.
+#include "described_light_field.h"
+#include "fuzz.h"
+#include "stated_views.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const gigaray::fuzz::Input input(data, size, 2);
+  gigaray::fuzz::expect_result_or_one_line([&] {
+    if (input.choice == 0) {
+      const auto described = gigaray::parse_light_field_json(input.bytes, "fuzz");
+      GIGARAY_CHECK(described.files.size() == described.light_field.views.size());
+    } else {
+      for (const auto& view : gigaray::parse_transforms_json(input.bytes, "fuzz"))
+        GIGARAY_CHECK(view.rotation.allFinite() && view.translation.allFinite());
+    }
+  });
+  return 0;
+}

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Gigaray authors
+// Text: parameters.cfg of HCI scenes, Middlebury's par files, Strecha's .camera files.
+#include "fuzz.h"
+#include "hci_parameters.h"
+#include "stated_views.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const gigaray::fuzz::Input input(data, size, 3);
+  gigaray::fuzz::expect_result_or_one_line([&] {
+    if (input.choice == 0) {
+      const gigaray::HciParameters parameters(input.bytes, "fuzz");
+      for (const char* key : {"disp_min", "focal_length_mm", "baseline_mm"}) parameters.number(key);
+      const int cameras = parameters.cameras("num_cams_x", 9);
+      GIGARAY_CHECK(cameras >= 1 && cameras <= 1000);
+    } else if (input.choice == 1) {
+      for (const auto& view : gigaray::parse_middlebury_par(input.bytes, "fuzz"))
+        GIGARAY_CHECK(!view.picture.empty() && view.rotation.allFinite());
+    } else {
+      const auto view = gigaray::parse_strecha_camera(input.bytes, "fuzz");
+      GIGARAY_CHECK(view.lens.width > 0 && view.translation.allFinite());
+    }
+  });
+  return 0;
+}
