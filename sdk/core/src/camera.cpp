@@ -63,7 +63,8 @@ InverseDepthRange widened(const InverseDepthRange& seen) {
   return {std::max(0.0, seen.min - margin), seen.max + margin};
 }
 
-std::optional<InverseDepthRange> range_of_depths(std::vector<double> depths, double trimmed) {
+std::optional<InverseDepthRange> range_of_depths(std::vector<double> depths) {
+  constexpr double kPercentile = 0.005;
   constexpr std::size_t kLeastPoints = 8;
   if (depths.size() < kLeastPoints) return std::nullopt;
   for (double& z : depths) z = 1 / z;
@@ -71,7 +72,7 @@ std::optional<InverseDepthRange> range_of_depths(std::vector<double> depths, dou
   const auto percentile = [&](double p) {
     return depths[std::size_t(std::lround(p * double(depths.size() - 1)))];
   };
-  return widened({percentile(trimmed), percentile(1 - trimmed)});
+  return widened({percentile(kPercentile), percentile(1 - kPercentile)});
 }
 
 }  // namespace gigaray

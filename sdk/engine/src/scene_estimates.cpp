@@ -316,9 +316,7 @@ void estimate_inverse_depths(LightField& light_field, const RunControl& control,
     std::vector<double> depths;
     for (const Eigen::Vector3d& point : points)
       if (cameras[i].sees(point)) depths.push_back(cameras[i].project(point).z());
-    constexpr double kTrimmed = 0.02;  // a coarse search errs more often than sparse points
-    if (const auto range = range_of_depths(std::move(depths), kTrimmed))
-      cameras[i].inverse_depth = range;
+    if (const auto range = range_of_depths(std::move(depths))) cameras[i].inverse_depth = range;
   }
 }
 

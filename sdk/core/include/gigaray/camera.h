@@ -52,9 +52,8 @@ InverseDepthRange all_inverse_depths(const std::vector<Camera>& cameras);
 /// What to search when points are seen in a range: a fifth of it more on both sides, never below 0.
 InverseDepthRange widened(const InverseDepthRange& seen);
 
-/// Range of the inverse depths of points that a view sees, without the share `trimmed` of them at
-/// either end, widened. Empty for fewer than 8 points. depths: of the points, scene units, > 0.
-std::optional<InverseDepthRange> range_of_depths(std::vector<double> depths,
-                                                 double trimmed = 0.005);
+/// Range of the inverse depths of points that a view sees: robust percentiles (0.5 … 99.5 %),
+/// widened. Empty for fewer than 8 points. depths: of the points, scene units, > 0.
+std::optional<InverseDepthRange> range_of_depths(std::vector<double> depths);
 
 }  // namespace gigaray
