@@ -9,7 +9,6 @@
 #include <string>
 
 #include "gigaray/adapters/atomic_output.h"
-#include "gigaray/adapters/colmap_program.h"
 #include "gigaray/adapters/photographs.h"
 
 namespace gigaray::cli {
@@ -20,10 +19,10 @@ namespace fs = std::filesystem;
 /// Where the finished run of COLMAP notes what it was for.
 constexpr const char* kRecord = "photographs.txt";
 
-/// Names, sizes and times of what COLMAP looks at: the same text, the same cameras.
-std::string record_of(const InputOptions& input) {
+/// Names, sizes and times of what COLMAP looks at, and the lens: the same text, the same cameras.
+std::string record_of(const fs::path& photographs, const ColmapRunOptions& options) {
   std::string record;
-  for (const fs::path& folder : {input.input, input.open.masks}) {
+  for (const fs::path& folder : {photographs, options.masks}) {
     if (folder.empty()) continue;
     std::vector<std::string> lines;
     for (const auto& entry : fs::directory_iterator(folder))
@@ -35,6 +34,9 @@ std::string record_of(const InputOptions& input) {
     record += fs::absolute(folder).string() + "\n";
     for (const std::string& line : lines) record += line;
   }
+  if (options.lens)
+    record += fmt::format("{} {:.9g} {}\n", options.lens->model,
+                          fmt::join(options.lens->params, " "), options.refine_lens);
   return record;
 }
 
@@ -53,28 +55,26 @@ std::string why_no_row(const InputOptions& input, const RunControl& control) {
                      input.input.string(), *across);
 }
 
-LightField find_cameras(const InputOptions& input, const fs::path& work,
-                        const RunControl& control) {
-  const std::string record = record_of(input);
-  OpenOptions open;
-  open.images = input.input;
-  open.masks = input.open.masks;
+}  // namespace
+
+fs::path find_cameras(const fs::path& photographs, const ColmapRunOptions& options,
+                      const fs::path& output, const RunControl& control) {
+  fs::path work = fs::absolute(output).lexically_normal();
+  if (!work.has_filename()) work = work.parent_path();
+  work += ".colmap";
+  const std::string record = record_of(photographs, options);
   if (text_of(work / kRecord) == record) {
     control.message(fmt::format("cameras as COLMAP found them before, in {}", work.string()));
-    return input.open_light_field(work, open);
+    return work;
   }
   // What an earlier run left behind: of other photographs, or unfinished.
   if (fs::exists(work / kRecord) || fs::exists(work / "colmap.log")) fs::remove_all(work);
-  ColmapRunOptions options;
-  options.masks = input.open.masks;
-  const ColmapRun run = run_colmap(input.input, work, options, control);
+  const ColmapRun run = run_colmap(photographs, work, options, control);
   control.message(fmt::format("COLMAP found the cameras of {} of {} photographs (log: {})",
                               run.num_registered, run.num_pictures, run.log.string()));
   write_file_atomically(work / kRecord, record);
-  return input.open_light_field(work, open);
+  return work;
 }
-
-}  // namespace
 
 LightField open_or_find_cameras(InputOptions input, const fs::path& output,
                                 const RunControl& control) {
@@ -84,10 +84,13 @@ LightField open_or_find_cameras(InputOptions input, const fs::path& output,
   std::string why = input.find_cameras ? "" : why_no_row(input, control);
   if (!input.find_cameras && why.empty()) return input.open_light_field();
   if (!why.empty()) control.message(why + "; their cameras are found with COLMAP");
-  fs::path work = fs::absolute(output).lexically_normal();
-  if (!work.has_filename()) work = work.parent_path();
-  work += ".colmap";
-  return find_cameras(input, work, control);
+  ColmapRunOptions options;
+  options.masks = input.open.masks;
+  const fs::path work = find_cameras(input.input, options, output, control);
+  OpenOptions open;
+  open.images = input.input;
+  open.masks = input.open.masks;
+  return input.open_light_field(work, open);
 }
 
 }  // namespace gigaray::cli

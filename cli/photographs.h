@@ -4,14 +4,21 @@
 
 #include <filesystem>
 
+#include "gigaray/adapters/colmap_program.h"
 #include "gigaray/run_control.h"
 #include "input_options.h"
 
 namespace gigaray::cli {
 
+/// Finds the cameras of a folder of photographs with COLMAP and returns the workspace
+/// OUTPUT.colmap, a folder beside the output. One of an earlier run with the same photographs and
+/// options is taken as it is. Throws as run_colmap does.
+std::filesystem::path find_cameras(const std::filesystem::path& photographs,
+                                   const ColmapRunOptions& options,
+                                   const std::filesystem::path& output, const RunControl& control);
+
 /// Opens an input. When it is a folder of photographs from anywhere, that is, pictures that form no
-/// row, their cameras are found with COLMAP first. What COLMAP makes stays in OUTPUT.colmap, a
-/// folder beside the output, and serves the next run with the same photographs.
+/// row, find_cameras() comes first.
 LightField open_or_find_cameras(InputOptions input, const std::filesystem::path& output,
                                 const RunControl& control);
 

@@ -15,8 +15,10 @@
 #include "gigaray/adapters/atomic_output.h"
 #include "gigaray/adapters/feature_tracks.h"
 #include "gigaray/adapters/light_field_json.h"
+#include "gigaray/adapters/photographs.h"
 #include "gigaray/adapters/pictures.h"
 #include "gigaray/adapters/rail_rectification.h"
+#include "photographs.h"
 
 namespace gigaray::cli {
 namespace {
@@ -29,6 +31,7 @@ struct RectifyOptions {
   std::optional<double> focal_px;
   std::vector<std::string> lens;  ///< model, then parameters
   std::string rotations = "best";
+  std::string poses = "auto";
   std::optional<double> step_mm;
   bool json = false;
 };
@@ -54,6 +57,49 @@ RailRotations parse_rotations(const std::string& name) {
   return name == "own"      ? RailRotations::kOwn
          : name == "common" ? RailRotations::kCommon
                             : RailRotations::kBest;
+}
+
+RectifiedRail calibrate(const RailPhotographs& photographs, const RectifyOptions& options,
+                        const RunControl& control) {
+  for (const std::string& note : photographs.notes) control.message(note);
+  if (!photographs.lens_note.empty()) control.message(photographs.lens_note);
+  return calibrate_rail(photographs, parse_rotations(options.rotations), control);
+}
+
+/// What COLMAP is told about the lens: all of it, or a focal length to begin with.
+ColmapRunOptions colmap_options(const RailPhotographs& photographs, const KnownLens& known) {
+  ColmapRunOptions options;
+  if (!known.lens && !known.focal_px) return options;
+  options.lens = photographs.pictures.front().lens;
+  options.refine_lens = !known.lens;
+  if (options.refine_lens) {
+    options.lens->model = "SIMPLE_RADIAL";
+    options.lens->params.push_back(0);
+  }
+  return options;
+}
+
+/// With the cameras that COLMAP finds. Where it finds too few or no rail, which happens when all
+/// stand on a line, with the order of the photographs.
+RectifiedRail find_cameras_and_calibrate(const RailPhotographs& in_order,
+                                         const fs::path& photographs, const KnownLens& known,
+                                         const RectifyOptions& options, const RunControl& control) {
+  const bool must = options.poses == "colmap";
+  std::string why;
+  try {
+    const fs::path workspace =
+        find_cameras(photographs, colmap_options(in_order, known), options.out, control);
+    const RailPhotographs posed = with_colmap_cameras(in_order, workspace);
+    if (must || posed.pictures.size() == in_order.pictures.size())
+      return calibrate(posed, options, control);
+    why = fmt::format("COLMAP found only {} of {} cameras", posed.pictures.size(),
+                      in_order.pictures.size());
+  } catch (const Error& error) {
+    if (must || error.code() == ErrorCode::kCancelled) throw;
+    why = error.what();
+  }
+  control.message(why + "; the order of the photographs is the start instead");
+  return calibrate(in_order, options, control);
 }
 
 /// Writes the views into a folder, one file each; returns their names.
@@ -86,6 +132,22 @@ ordered_json stats_json(const ResidualStats& stats) {
   return {{"median_px", stats.median}, {"percentile_95_px", stats.percentile_95}};
 }
 
+/// How to find a pixel of a rectified view in its photograph.
+ordered_json sources_json(const RectifiedRail& rail) {
+  ordered_json sources = ordered_json::array();
+  for (std::size_t i = 0; i < rail.pictures.size(); ++i) {
+    const RailSource source = source_of(rail, int(i));
+    ordered_json rotation = ordered_json::array();
+    for (int row = 0; row < 3; ++row)
+      rotation.push_back(
+          {source.rotation(row, 0), source.rotation(row, 1), source.rotation(row, 2)});
+    sources.push_back({{"file", rail.pictures[i].file.filename().string()},
+                       {"rotation", rotation},
+                       {"lens", {{"model", source.lens.model}, {"params", source.lens.params}}}});
+  }
+  return sources;
+}
+
 ordered_json report_json(const RectifiedRail& rail, const LightField& light_field,
                          const ResidualStats& vertical_after) {
   const RailReport& report = rail.report;
@@ -108,7 +170,9 @@ ordered_json report_json(const RectifiedRail& rail, const LightField& light_fiel
       {"vertical_residual_before", stats_json(report.vertical_before)},
       {"vertical_residual_after", stats_json(vertical_after)},
       {"spacing_steps", {{"min", spacing.min}, {"median", spacing.median}, {"max", spacing.max}}},
-      {"distortion", {rail.rail.lens.k1, rail.rail.lens.k2}}};
+      {"focal_px", rail.camera.focal_u},
+      {"principal_point_px", {rail.camera.centre_u, rail.camera.centre_v}},
+      {"photographs", sources_json(rail)}};
 }
 
 void add_report(const fs::path& description, const ordered_json& report) {
@@ -137,6 +201,7 @@ void print_text(const fs::path& out, const RectifiedRail& rail, const LightField
     line("line", fmt::format("cameras beside it by {:.3g} steps{} rms, {:.3g}{} at most", rms,
                              in_unit(rms), max, in_unit(max)));
   }
+  line("cameras from", rail.posed ? "COLMAP" : "the order of the photographs");
   line("rotations", fmt::format("{}, the cameras turn by {:.3g}° rms",
                                 report.own_rotations ? "each picture's own" : "one for all",
                                 report.rotation_rms_deg));
@@ -156,10 +221,16 @@ void rectify(const RectifyOptions& options, const RunControl& control) {
   if (options.step_mm && !(*options.step_mm > 0))
     throw Error(ErrorCode::kInvalidArgument, "--rail-step must be more than 0 mm");
   AtomicFolder out(options.out, kLightFieldFormat);
-  const RailPhotographs photographs = open_rail_in_order(options.input, known_lens(options));
-  for (const std::string& note : photographs.notes) control.message(note);
+  const bool is_workspace = has_colmap_model(options.input);
+  const fs::path images = options.input / "images";
+  const fs::path photographs =
+      is_workspace && fs::is_directory(images) ? images : folder_of_photographs(options.input);
+  const KnownLens known = known_lens(options);
+  const RailPhotographs in_order = open_rail_in_order(photographs, known);
   const RectifiedRail rail =
-      calibrate_rail(photographs, parse_rotations(options.rotations), control);
+      options.poses == "order" ? calibrate(in_order, options, control)
+      : is_workspace ? calibrate(with_colmap_cameras(in_order, options.input), options, control)
+                     : find_cameras_and_calibrate(in_order, photographs, known, options, control);
   const LightField light_field = rectified_light_field(rail, options.step_mm);
   check(light_field);
 
@@ -185,7 +256,8 @@ void rectify(const RectifyOptions& options, const RunControl& control) {
 Run rectify_command(CLI::App& app) {
   app.description("Photographs taken on a rail become a 3D light field: undistorted, rectified");
   auto options = std::make_shared<RectifyOptions>();
-  app.add_option("INPUT", options->input, "Folder of photographs, numbered along the rail")
+  app.add_option("INPUT", options->input,
+                 "Folder of photographs, numbered along the rail, or a COLMAP workspace")
       ->required();
   app.add_option("-o,--output", options->out, "Folder to write")->required();
   auto* focal = app.add_option("--focal", options->focal_px,
@@ -200,6 +272,11 @@ Run rectify_command(CLI::App& app) {
                  "Each picture is rectified by its camera's own rotation or by one common to all; "
                  "best: whichever leaves less between the rows")
       ->check(CLI::IsMember({"best", "own", "common"}))
+      ->capture_default_str();
+  app.add_option("--poses", options->poses,
+                 "What to start from: the cameras that COLMAP finds, the order of the photographs, "
+                 "or auto: COLMAP, the order where that fails; a COLMAP workspace has them")
+      ->check(CLI::IsMember({"auto", "colmap", "order"}))
       ->capture_default_str();
   app.add_option("--rail-step", options->step_mm,
                  "Mean distance of neighbouring cameras: depth will be in mm")

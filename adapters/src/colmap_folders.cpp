@@ -19,7 +19,26 @@ bool by_number(const fs::path& a, const fs::path& b) {
   return x.size() != y.size() ? x.size() < y.size() : x < y;
 }
 
+bool is_part_of_model(const fs::path& folder) {
+  std::error_code ignored;
+  return fs::exists(folder / "cameras.bin", ignored) || fs::exists(folder / "cameras.txt", ignored);
+}
+
 }  // namespace
+
+std::vector<fs::path> colmap_models_of(const fs::path& input) {
+  if (is_colmap_model(input)) return {input};
+  for (const fs::path& folder : {input / "sparse", input / "dense" / "sparse"}) {
+    if (is_colmap_model(folder)) return {folder};
+    std::vector<fs::path> models = colmap_models_below(folder);
+    if (!models.empty()) return models;
+  }
+  std::vector<fs::path> models = colmap_models_below(input);  // INPUT is the folder "sparse"
+  if (!models.empty()) return models;
+  for (const fs::path& folder : {input, input / "sparse", input / "sparse" / "0"})
+    if (is_part_of_model(folder)) return {folder};
+  return {};
+}
 
 std::vector<fs::path> colmap_models_below(const fs::path& folder) {
   std::error_code error;

@@ -13,6 +13,10 @@ namespace gigaray {
 /// Folders of models directly below one, such as sparse/0, sparse/1 …, by their numbers.
 std::vector<std::filesystem::path> colmap_models_below(const std::filesystem::path& folder);
 
+/// Folders of the models that an input may mean: itself, its sparse, sparse/0, dense/sparse, … One
+/// with parts missing is better than none: read_colmap_model() says which.
+std::vector<std::filesystem::path> colmap_models_of(const std::filesystem::path& input);
+
 struct FoundColmapModel {
   std::filesystem::path folder;
   ColmapModel model;

@@ -26,26 +26,6 @@ bool is_there(const fs::path& path) {
   return fs::exists(path, ignored);
 }
 
-/// With parts of a model missing: read_colmap_model() says which.
-bool is_part_of_model(const fs::path& folder) {
-  return is_there(folder / "cameras.bin") || is_there(folder / "cameras.txt");
-}
-
-/// Folders of the models that an input may mean.
-std::vector<fs::path> models_of(const fs::path& input) {
-  if (is_colmap_model(input)) return {input};
-  for (const fs::path& folder : {input / "sparse", input / "dense" / "sparse"}) {
-    if (is_colmap_model(folder)) return {folder};
-    std::vector<fs::path> models = colmap_models_below(folder);
-    if (!models.empty()) return models;
-  }
-  std::vector<fs::path> models = colmap_models_below(input);  // INPUT is the folder "sparse"
-  if (!models.empty()) return models;
-  for (const fs::path& folder : {input, input / "sparse", input / "sparse" / "0"})
-    if (is_part_of_model(folder)) return {folder};
-  return {};
-}
-
 /// Where the pictures of a model may lie.
 std::vector<fs::path> folders_around(const fs::path& model) {
   // WORKSPACE/sparse/0 is three deep at most.
@@ -165,7 +145,7 @@ class ColmapReader : public Reader {
 
   ProbeResult probe(const fs::path& input) const override {
     constexpr int kWhole = 80, kPart = 5;  // numbered pictures are more than a part
-    const std::vector<fs::path> models = models_of(input);
+    const std::vector<fs::path> models = colmap_models_of(input);
     if (models.empty()) return {};
     return {is_colmap_model(models.front()) ? kWhole : kPart, ""};
   }
@@ -173,7 +153,7 @@ class ColmapReader : public Reader {
   LightField open(const fs::path& input, const OpenOptions& options) const override {
     refuse_direction(options, "the COLMAP model states");
     std::vector<std::string> notes;
-    FoundColmapModel found = largest_colmap_model(models_of(input), notes);
+    FoundColmapModel found = largest_colmap_model(colmap_models_of(input), notes);
     return open_model(std::move(found), options, std::move(notes));
   }
 };

@@ -85,17 +85,16 @@ Lens lens_of(const KnownLens& known, RailPhotographs& photographs) {
     return lens;
   }
   if (const auto focal = focal_of_exif(photographs.pictures.front().file, width, height)) {
-    photographs.notes.push_back("the focal length is that of the EXIF data, " +
-                                std::to_string(std::lround(*focal)) + " px");
+    photographs.lens_note =
+        "the focal length is that of the EXIF data, " + std::to_string(std::lround(*focal)) + " px";
     return pinhole(width, height, *focal);
   }
   constexpr double kUsual = 1.2;  // a camera's normal zoom, as COLMAP assumes it too
   const double focal = kUsual * std::max(width, height);
   photographs.focal_is_known = false;
-  photographs.notes.push_back(
-      "the focal length is not known, " + std::to_string(std::lround(focal)) +
-      " px is assumed: rows become epipolar lines all the same, the scale of "
-      "depth stays open (--focal states it)");
+  photographs.lens_note = "the focal length is not known, " + std::to_string(std::lround(focal)) +
+                          " px is assumed: rows become epipolar lines all the same, the scale of "
+                          "depth stays open (--focal states it)";
   return pinhole(width, height, focal);
 }
 

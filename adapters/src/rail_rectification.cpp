@@ -172,6 +172,12 @@ Candidate adjust(Rail start, const std::vector<Track>& tracks, bool own_rotation
   options.refine_distortion = refine_distortion;
   if (!own_rotations)
     for (Matrix3d& turn : start.turns) turn.setIdentity();
+  if (own_rotations) {
+    RailAdjustmentOptions freer = options;
+    freer.off_line_sigma = 0.1;
+    start = adjust_rail(start, tracks, freer, control).rail;
+  }
+  options.hold_turn_trend = own_rotations;
   Candidate candidate;
   candidate.adjustment = adjust_rail(start, tracks, options, control);
   const Rail& rail = candidate.adjustment.rail;
@@ -387,6 +393,20 @@ RectifiedRail calibrate_rail(const RailPhotographs& photographs, RailRotations r
   crop_to_common(result.rail, lenses, photographs.width, photographs.height, result.camera);
   result.positions = rectified_positions(result.rail, result.camera.rotation);
   return result;
+}
+
+RailSource source_of(const RectifiedRail& rail, int view_idx) {
+  RailSource source{rail.rail.view_rotation(view_idx) * rail.camera.rotation.transpose(),
+                    rail.pictures[std::size_t(view_idx)].lens};
+  // A lens that was known before is kept, and nothing is added to it.
+  const RadialLens& found = rail.rail.lens;
+  if (found.k1 != 0 || found.k2 != 0) {
+    constexpr double kCorner = 0.5;  // Lens has pixel corners at integers
+    source.lens.model = "RADIAL";
+    source.lens.params = {found.focal, found.centre.x() + kCorner, found.centre.y() + kCorner,
+                          found.k1, found.k2};
+  }
+  return source;
 }
 
 LightField rectified_light_field(const RectifiedRail& rail, std::optional<double> step_mm) {

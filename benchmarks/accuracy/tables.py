@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Copyright (c) 2026 The Gigaray authors
-"""Markdown of the figures that score_folder writes as JSON."""
+"""Markdown of the figures that the score_… programs write as JSON."""
 
 import statistics
 
@@ -15,6 +15,18 @@ def number(value, digits=2):
 def markdown(head, rows):
     lines = ["| " + " | ".join(head) + " |", "|" + "---|" * len(head)]
     return "\n".join(lines + ["| " + " | ".join(row) + " |" for row in rows])
+
+
+def cell(value):
+    if value is None:
+        return ""
+    return f"{value:.4g}" if isinstance(value, float) else str(value)
+
+
+def of_rows(rows):
+    """A table of dictionaries, with a column for every key of any."""
+    head = list(dict.fromkeys(key for row in rows for key in row))
+    return markdown(head, [[cell(row.get(key)) for key in head] for row in rows])
 
 
 def means(rows):

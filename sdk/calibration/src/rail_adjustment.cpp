@@ -25,6 +25,7 @@ constexpr int kLeastSightings = 8;  // of a view
 struct Unknowns {
   Eigen::Vector3d travel;  ///< unit, common frame
   std::vector<double> positions;
+  std::vector<Eigen::Vector3d> beside;  ///< of the cameras from the line, common frame
   std::vector<Eigen::Vector3d> turns;   ///< angle · axis
   std::vector<Eigen::Vector3d> points;  ///< a, b, inverse depth
   std::array<double, 3> pinhole{};      ///< focal, centre
@@ -36,11 +37,11 @@ struct Reprojection {
   Eigen::Vector2d pixel;
 
   template <class T>
-  bool operator()(const T* travel, const T* position, const T* turn, const T* point,
-                  const T* pinhole, const T* distortion, T* residual) const {
-    const T way = point[2] * position[0];
-    const T common[3] = {point[0] - way * travel[0], point[1] - way * travel[1],
-                         T(1) - way * travel[2]};
+  bool operator()(const T* travel, const T* position, const T* beside, const T* turn,
+                  const T* point, const T* pinhole, const T* distortion, T* residual) const {
+    const T common[3] = {point[0] - point[2] * (position[0] * travel[0] + beside[0]),
+                         point[1] - point[2] * (position[0] * travel[1] + beside[1]),
+                         T(1) - point[2] * (position[0] * travel[2] + beside[2])};
     T ray[3];
     ceres::AngleAxisRotatePoint(turn, common, ray);
     if (ray[2] <= T(1e-3)) return false;  // behind the camera
@@ -53,15 +54,50 @@ struct Reprojection {
   }
 };
 
-/// Holds a turn near none.
+/// Holds a turn, or a place beside the line, near none.
 struct Steadiness {
   double weight;
 
   template <class T>
-  bool operator()(const T* turn, T* residual) const {
-    for (int i = 0; i < 3; ++i) residual[i] = weight * turn[i];
+  bool operator()(const T* deviation, T* residual) const {
+    for (int i = 0; i < 3; ++i) residual[i] = weight * deviation[i];
     return true;
   }
+};
+
+/// Holds how the turns change along the rail, on the whole (the slope of a line through them).
+class TurnTrend : public ceres::CostFunction {
+ public:
+  TurnTrend(const std::vector<double>& positions, const std::vector<Eigen::Vector3d>& turns)
+      : weights_(positions.size()) {
+    double mean = 0, squares = 0;
+    for (const double position : positions) mean += position / double(positions.size());
+    for (const double position : positions) squares += (position - mean) * (position - mean);
+    const auto [first, last] = std::minmax_element(positions.begin(), positions.end());
+    constexpr double kSigma = 1e-5;  // radians, from one end of the rail to the other
+    for (std::size_t i = 0; i < positions.size(); ++i) {
+      weights_[i] = (positions[i] - mean) / squares * (*last - *first) / kSigma;
+      held_ += weights_[i] * turns[i];
+      mutable_parameter_block_sizes()->push_back(3);
+    }
+    set_num_residuals(3);
+  }
+
+  bool Evaluate(const double* const* turns, double* residuals, double** jacobians) const override {
+    Eigen::Map<Eigen::Vector3d> residual(residuals);
+    residual = -held_;
+    for (std::size_t i = 0; i < weights_.size(); ++i) {
+      residual += weights_[i] * Eigen::Map<const Eigen::Vector3d>(turns[i]);
+      if (!jacobians || !jacobians[i]) continue;
+      Eigen::Map<Eigen::Matrix3d> jacobian(jacobians[i]);
+      jacobian = weights_[i] * Eigen::Matrix3d::Identity();
+    }
+    return true;
+  }
+
+ private:
+  std::vector<double> weights_;
+  Eigen::Vector3d held_ = Eigen::Vector3d::Zero();
 };
 
 class StopWhenCancelled : public ceres::IterationCallback {
@@ -82,10 +118,12 @@ class Adjuster {
       : start_(start), tracks_(tracks), options_(options), control_(control) {
     unknowns_.travel = start.rotation * start.direction;
     unknowns_.positions = start.positions;
+    unknowns_.beside.assign(start.positions.size(), Eigen::Vector3d::Zero());
     for (const Eigen::Matrix3d& turn : start.turns) {
       const Eigen::AngleAxisd angle_axis(turn);
       unknowns_.turns.push_back(angle_axis.angle() * angle_axis.axis());
     }
+    start_turns_ = unknowns_.turns;
     const RadialLens& lens = start.lens;
     unknowns_.pinhole = {lens.focal, lens.centre.x(), lens.centre.y()};
     unknowns_.distortion = {lens.k1, lens.k2};
@@ -149,6 +187,7 @@ class Adjuster {
     Eigen::Vector2d residual;
     const bool before =
         reprojection(unknowns_.travel.data(), &unknowns_.positions[sighting.view_idx],
+                     unknowns_.beside[sighting.view_idx].data(),
                      unknowns_.turns[sighting.view_idx].data(), unknowns_.points[track_idx].data(),
                      unknowns_.pinhole.data(), unknowns_.distortion.data(), residual.data());
     return before && residual.allFinite() ? residual.norm()
@@ -211,6 +250,17 @@ class Adjuster {
     problem.SetParameterBlockConstant(&*first);
     problem.SetParameterBlockConstant(&*last);
 
+    const double step = (*last - *first) / double(unknowns_.positions.size() - 1);
+    for (Eigen::Vector3d& beside : unknowns_.beside) {
+      problem.AddParameterBlock(beside.data(), 3);
+      if (options_.off_line_sigma > 0)
+        problem.AddResidualBlock(new ceres::AutoDiffCostFunction<Steadiness, 3, 3>(
+                                     new Steadiness{1 / (options_.off_line_sigma * step)}),
+                                 nullptr, beside.data());
+      else
+        problem.SetParameterBlockConstant(beside.data());
+    }
+
     const double sigma = options_.rotation_sigma_deg * std::numbers::pi / 180;
     for (Eigen::Vector3d& turn : unknowns_.turns) {
       problem.AddParameterBlock(turn.data(), 3);
@@ -220,6 +270,12 @@ class Adjuster {
             turn.data());
       else
         problem.SetParameterBlockConstant(turn.data());
+    }
+
+    if (options_.own_rotations && options_.hold_turn_trend) {
+      std::vector<double*> turns;
+      for (Eigen::Vector3d& turn : unknowns_.turns) turns.push_back(turn.data());
+      problem.AddResidualBlock(new TurnTrend(start_.positions, start_turns_), nullptr, turns);
     }
 
     std::vector<int> fixed;
@@ -245,15 +301,16 @@ class Adjuster {
     for_each_kept([&](std::size_t i, std::size_t j) {
       const Sighting& sighting = tracks_[i][j];
       problem.AddResidualBlock(
-          new ceres::AutoDiffCostFunction<Reprojection, 2, 3, 1, 3, 3, 3, 2>(
+          new ceres::AutoDiffCostFunction<Reprojection, 2, 3, 1, 3, 3, 3, 3, 2>(
               new Reprojection{sighting.pixel}),
           loss, unknowns_.travel.data(), &unknowns_.positions[sighting.view_idx],
-          unknowns_.turns[sighting.view_idx].data(), unknowns_.points[i].data(),
-          unknowns_.pinhole.data(), unknowns_.distortion.data());
+          unknowns_.beside[sighting.view_idx].data(), unknowns_.turns[sighting.view_idx].data(),
+          unknowns_.points[i].data(), unknowns_.pinhole.data(), unknowns_.distortion.data());
       ordering->AddElementToGroup(unknowns_.points[i].data(), 0);
     });
     ordering->AddElementToGroup(unknowns_.travel.data(), 1);
     for (double& position : unknowns_.positions) ordering->AddElementToGroup(&position, 1);
+    for (Eigen::Vector3d& beside : unknowns_.beside) ordering->AddElementToGroup(beside.data(), 1);
     for (Eigen::Vector3d& turn : unknowns_.turns) ordering->AddElementToGroup(turn.data(), 1);
     ordering->AddElementToGroup(unknowns_.pinhole.data(), 1);
     ordering->AddElementToGroup(unknowns_.distortion.data(), 1);
@@ -282,6 +339,7 @@ class Adjuster {
   const RailAdjustmentOptions& options_;
   const RunControl& control_;
   Unknowns unknowns_;
+  std::vector<Eigen::Vector3d> start_turns_;
   std::vector<std::vector<bool>> keep_;  ///< sightings of the tracks
   std::vector<bool> is_held_;            ///< tracks
 };

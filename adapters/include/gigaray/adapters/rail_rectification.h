@@ -34,6 +34,7 @@ struct RailPhotographs {
   int width = 0, height = 0;
   int bit_depth = 8;
   std::vector<std::string> notes;  ///< what was assumed or left out
+  std::string lens_note;           ///< what was assumed of the lens, unless it comes with the poses
 };
 
 /// What is known of the lens of a rail's camera; nothing needs to be.
@@ -47,6 +48,15 @@ struct KnownLens {
 /// headers. Throws Error(kBadInput) for fewer than 3 pictures, two series of names, several sizes;
 /// Error(kInvalidArgument) for a lens that can't be.
 RailPhotographs open_rail_in_order(const std::filesystem::path& folder, const KnownLens& lens);
+
+/// Is the input a COLMAP workspace, or the folder of a model?
+bool has_colmap_model(const std::filesystem::path& input);
+
+/// The photographs with the cameras of a COLMAP workspace (its largest model, pictures by their
+/// file names): posed, with its lenses. Photographs without a camera are left out and noted. Throws
+/// Error(kBadInput) when fewer than 3 have one or its cameras are for another size.
+RailPhotographs with_colmap_cameras(RailPhotographs photographs,
+                                    const std::filesystem::path& workspace);
 
 enum class RailRotations {
   kBest,    ///< kOwn or kCommon, whichever leaves less vertical residual
@@ -83,6 +93,14 @@ struct RectifiedRail {
 /// neighbours share too few features, when it is no rail, and when the pictures share too little.
 RectifiedRail calibrate_rail(const RailPhotographs& photographs, RailRotations rotations,
                              const RunControl& control);
+
+/// Where the pixels of a rectified view come from: what RectifiedRail::camera sees in a direction,
+/// the photograph shows where its lens shows rotation · direction.
+struct RailSource {
+  Eigen::Matrix3d rotation;  ///< rectified camera → camera of the photograph
+  Lens lens;                 ///< with the distortion that was found
+};
+RailSource source_of(const RectifiedRail& rail, int view_idx);
 
 /// The 3D light field of a rectified rail. Its pixels are read from the photographs, distortion and
 /// rotation undone in one resampling; names are those of the photographs, s is as measured. The rig

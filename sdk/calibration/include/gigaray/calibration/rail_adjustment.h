@@ -18,6 +18,14 @@ struct RailAdjustmentOptions {
   /// Expected unsteadiness of the rotation, degrees. It only decides what the pictures leave open,
   /// as whether all cameras turned or moved.
   double rotation_sigma_deg = 1;
+  /// Keeps, with own_rotations, how the turns of the start change along the rail on the whole. To
+  /// first order such a change can't be told from a shift of all inverse depths; cameras that stand
+  /// a little beside the line make the pictures tell it wrongly.
+  bool hold_turn_trend = false;
+  /// Expected distance of the cameras from the line, of the mean step; they may leave it then,
+  /// which finds the turns without that error. 0: all stand on it. The result has no such
+  /// distances.
+  double off_line_sigma = 0;
   /// Seen by cameras that turn or by a bundle of other than parallel views only: with common
   /// rotations the focal length can't be told from the depth of the scene.
   bool refine_focal = false;
