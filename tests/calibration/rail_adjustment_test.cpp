@@ -100,6 +100,38 @@ TEST(RailAdjustment, CamerasBesideTheLineLeaveAResidualOfThatSize) {
   EXPECT_GT(result.after.rms, 0.02 * 0.03 / 10 * 800 / 1.5);
 }
 
+/// By how much more than in truth the cameras turn from one end of the rail to the other, degrees.
+double trend_error(const Rail& rail, const Rail& truth) {
+  double squares = 0;
+  for (const double position : truth.positions) squares += position * position;
+  Eigen::Vector3d slope = Eigen::Vector3d::Zero();
+  for (int view = 0; view < rail.num_views(); ++view) {
+    const Eigen::AngleAxisd more(rail.turns[view] * truth.turns[view].transpose());
+    slope += truth.positions[view] / squares * more.angle() * more.axis();
+  }
+  return degrees(slope.norm() * (truth.positions.back() - truth.positions.front()));
+}
+
+TEST(RailAdjustment, CamerasBesideTheLineTellTheTurnsWronglyUnlessTheyMayLeaveIt) {
+  RailSceneOptions options;
+  options.off_line = 0.06;
+  options.turn_deg = 0.3;
+  options.noise_px = 0.2;
+  const RailScene scene = make_rail_scene(options);
+  RailAdjustmentOptions on_line;
+  on_line.own_rotations = true;
+  const Rail biased = adjust_rail(ideal_start(scene.rail), scene.tracks, on_line, kQuiet).rail;
+  RailAdjustmentOptions free = on_line;
+  free.off_line_sigma = 0.1;
+  const Rail better = adjust_rail(ideal_start(scene.rail), scene.tracks, free, kQuiet).rail;
+  EXPECT_LT(trend_error(better, scene.rail), 0.5 * trend_error(biased, scene.rail));
+
+  RailAdjustmentOptions hold = on_line;
+  hold.hold_turn_trend = true;
+  const Rail held = adjust_rail(better, scene.tracks, hold, kQuiet).rail;
+  EXPECT_NEAR(trend_error(held, better), 0, 0.01);
+}
+
 TEST(RailAdjustment, WhatCantBeARailIsRefused) {
   const RailScene scene = make_rail_scene({});
   Rail two = scene.rail;

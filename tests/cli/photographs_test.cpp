@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Gigaray authors
+// Depth of photographs from anywhere: with known cameras, and with those that COLMAP finds.
+#include <nlohmann/json.hpp>
+
+#include "cli/program_test.h"
+#include "gigaray/adapters/maps.h"
+#include "gigaray/adapters/pictures.h"
+
+namespace gigaray {
+namespace {
+
+using nlohmann::json;
+using Names = std::set<std::string>;
+
+class Photographs : public ProgramTest {
+ protected:
+  static constexpr const char* kFast = " --hypotheses 96 ";
+
+  void photograph(const std::string& options = "") const {
+    const Result result =
+        run("synth planes -o walk --path walk --views 6 --width 240 --height 160 "
+            "--extent 0.3 --samples 2 " +
+            options);
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+  }
+  json report(const std::string& out) const { return json::parse(text_of(out + "/gigaray.json")); }
+  /// Share of the pixels whose depth is within a share of scale · truth.
+  double within(const std::string& map, const std::string& truth, double tolerance,
+                double scale = 1) const {
+    const FloatMap depth = read_pfm(folder / map), exact = read_pfm(folder / truth);
+    int good = 0;
+    for (std::size_t i = 0; i < depth.size(); ++i)
+      good += std::abs(depth.data()[i] / (scale * exact.data()[i]) - 1) < tolerance;
+    return double(good) / double(depth.size());
+  }
+};
+
+TEST_F(Photographs, WithKnownCamerasHaveDepthInTheirUnit) {
+  photograph();
+  const Result result = run(std::string("depth walk -o out") + kFast);
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(report("out").at("light_field").at("kind"), "unstructured");
+  EXPECT_EQ(report("out").at("views").size(), 6u);
+  for (const char* view : {"view_000", "view_003", "view_005"})
+    EXPECT_GT(within(std::string("out/") + view + "/depth.pfm",
+                     std::string("walk/truth/") + view + ".pfm", 0.02),
+              0.85)
+        << view;
+  EXPECT_EQ(names_in("."), (Names{"out", "walk"}));
+}
+
+TEST_F(Photographs, AloneGetTheirCamerasFromColmap) {
+  photograph();
+  const Result result =
+      run(std::string("depth walk/images -o out --find-cameras --views centre") + kFast);
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(result.err.find("COLMAP found the cameras of 6 of 6"), std::string::npos) << result.err;
+  EXPECT_EQ(names_in("."), (Names{"out", "out.colmap", "walk"}));
+  // COLMAP's scale is its own.
+  const std::string view = report("out").at("centre");
+  const std::string map = "out/" + view + "/depth.pfm", truth = "walk/truth/" + view + ".pfm";
+  const FloatMap depth = read_pfm(folder / map), exact = read_pfm(folder / truth);
+  std::vector<float> ratios;
+  for (std::size_t i = 0; i < depth.size(); ++i)
+    if (std::isfinite(depth.data()[i])) ratios.push_back(depth.data()[i] / exact.data()[i]);
+  ASSERT_FALSE(ratios.empty());
+  std::nth_element(ratios.begin(), ratios.begin() + long(ratios.size() / 2), ratios.end());
+  EXPECT_GT(within(map, truth, 0.03, ratios[ratios.size() / 2]), 0.7);
+
+  // The next run takes the cameras that are there; other photographs are looked at anew.
+  const Result again =
+      run(std::string("depth walk/images -o out --find-cameras --views centre") + kFast);
+  ASSERT_EQ(again.exit_code, 0) << again.err;
+  EXPECT_NE(again.err.find("as COLMAP found them before"), std::string::npos) << again.err;
+}
+
+TEST_F(Photographs, WithoutColmapOneLineSaysSo) {
+  photograph();
+  expect_refusal("depth walk/images -o out --find-cameras", 1, "colmap", "not installed",
+                 "PATH=/nowhere");
+}
+
+TEST_F(Photographs, OfNothingInCommonAreRefusedWithWhatToTry) {
+  std::filesystem::create_directory(folder / "photos");
+  std::uint32_t state = 1;
+  for (int i = 0; i < 3; ++i) {
+    Image<std::uint16_t> noise(96, 64, 3);
+    for (std::size_t k = 0; k < noise.size(); ++k)
+      noise.data()[k] = std::uint16_t((state = state * 1664525u + 1013904223u) >> 24);
+    write_png(folder / ("photos/" + std::to_string(i) + ".png"), noise, 8);
+  }
+  const Result result = run("depth photos -o out --find-cameras");
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_NE(result.err.find("gigaray depth: "), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find("should share"), std::string::npos) << result.err;
+  EXPECT_FALSE(names_in(".").contains("out"));
+}
+
+TEST_F(Photographs, MasksLeaveOutWhatIsBlack) {
+  photograph();
+  std::filesystem::create_directory(folder / "masks");
+  Image<std::uint16_t> mask(240, 160, 3);
+  for (int v = 0; v < 160; ++v)
+    for (int u = 0; u < 240; ++u)
+      for (int c = 0; c < 3; ++c) mask(u, v, c) = v < 40 ? 0 : 255;
+  write_png(folder / "masks/view_003.png", mask, 8);
+  const Result result =
+      run(std::string("depth walk -o out --masks masks --views view_003") + kFast);
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(result.err.find("5 of 6 pictures have no mask"), std::string::npos) << result.err;
+  const FloatMap depth = read_pfm(folder / "out/view_003/depth.pfm");
+  for (int u = 0; u < 240; u += 7) {
+    EXPECT_TRUE(std::isnan(depth(u, 20))) << u;
+    EXPECT_FALSE(std::isnan(depth(u, 100))) << u;
+  }
+  expect_refusal("depth walk -o other --masks walk/truth", 1, "holds no mask");
+}
+
+TEST_F(Photographs, DamageToAModelIsOneLine) {
+  photograph();
+  const auto path = folder / "walk/sparse/0/images.txt";
+  const std::string good = text_of("walk/sparse/0/images.txt");
+  std::ofstream(path) << good.substr(0, good.size() / 2);
+  expect_refusal("depth walk -o out", 1, "images.txt");
+  std::ofstream(path) << good;
+  std::filesystem::remove(folder / "walk/images/view_002.png");
+  expect_refusal("depth walk -o out", 1, "view_002.png", "is missing");
+  std::ofstream(folder / "walk/sparse/0/cameras.txt") << "1 PINHOLE 240 160 nan 1 2 3\n";
+  expect_refusal("depth walk -o out", 1, "cameras.txt");
+}
+
+TEST_F(Photographs, AreShrunkOnDemand) {
+  photograph();
+  const Result result = run(std::string("depth walk -o out --max-size 120 --views centre") + kFast);
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(report("out").at("light_field").at("width"), 120);
+  EXPECT_EQ(report("out").at("light_field").at("height"), 80);
+}
+
+}  // namespace
+}  // namespace gigaray
