@@ -127,9 +127,10 @@ void run(const Settings& settings, const RunControl& control) {
 
   std::set<MapFormat> formats;
   for (const std::string& name : settings.formats)
-    formats.insert(name == "exr"   ? MapFormat::kExr
-                   : name == "npy" ? MapFormat::kNpy
-                                   : MapFormat::kPng16);
+    formats.insert(name == "exr"      ? MapFormat::kExr
+                   : name == "npy"    ? MapFormat::kNpy
+                   : name == "colmap" ? MapFormat::kColmap
+                                      : MapFormat::kPng16);
   DepthFolder folder(settings.output, formats, light_field);
 
   Reconstruction result = reconstruct(light_field, options, settings.run.backend(), control);
@@ -224,8 +225,10 @@ Run depth_command(CLI::App& app) {
          "0.07 px")
       ->check(CLI::NonNegativeNumber)
       ->type_name("C");
-  app.add_option("--format", settings->formats, "Maps in these formats too: exr, npy, png16")
-      ->check(CLI::IsMember({"exr", "npy", "png16"}))
+  app.add_option("--format", settings->formats,
+                 "Maps in these formats too: exr, npy, png16; colmap: a dense workspace for "
+                 "`colmap stereo_fusion`")
+      ->check(CLI::IsMember({"exr", "npy", "png16", "colmap"}))
       ->delimiter(',');
   app.add_flag("--json", settings->json, "Print gigaray.json to stdout");
   return [settings](const RunControl& control) { run(*settings, control); };

@@ -4,8 +4,11 @@
 // then 32-bit floats, little endian, rows from top to bottom.
 #include "gigaray/adapters/colmap_maps.h"
 
+#include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <system_error>
+#include <vector>
 
 #include "float_bytes.h"
 #include "gigaray/adapters/atomic_output.h"
@@ -15,23 +18,64 @@
 namespace gigaray {
 namespace fs = std::filesystem;
 
-fs::path colmap_depth_map_path(const fs::path& workspace, const std::string& name) {
-  return workspace / "stereo" / "depth_maps" / (name + ".geometric.bin");
-}
+namespace {
 
-void write_colmap_depth_map(const fs::path& path, const FloatMap& depth) {
-  GIGARAY_CHECK(depth.channels() == 1 && !depth.empty());
+/// values: channel after channel.
+void write_map(const fs::path& path, int width, int height, const std::vector<float>& values) {
   std::error_code error;
   // Images in folders have maps in folders.
   if (path.has_parent_path()) fs::create_directories(path.parent_path(), error);
   if (error)
     throw Error(ErrorCode::kIo, path.string() + ": can't be written (" + error.message() + ")");
-  std::string bytes = std::to_string(depth.width()) + "&" + std::to_string(depth.height()) + "&1&";
-  FloatMap known = depth;
+  const std::size_t channels = values.size() / (std::size_t(width) * height);
+  std::string bytes =
+      std::to_string(width) + "&" + std::to_string(height) + "&" + std::to_string(channels) + "&";
+  append_floats(bytes, values.data(), values.size());
+  write_file_atomically(path, bytes);
+}
+
+}  // namespace
+
+fs::path colmap_depth_map_path(const fs::path& workspace, const std::string& name) {
+  return workspace / "stereo" / "depth_maps" / (name + ".geometric.bin");
+}
+
+fs::path colmap_normal_map_path(const fs::path& workspace, const std::string& name) {
+  return workspace / "stereo" / "normal_maps" / (name + ".geometric.bin");
+}
+
+void write_colmap_depth_map(const fs::path& path, const FloatMap& depth) {
+  GIGARAY_CHECK(depth.channels() == 1 && !depth.empty());
+  std::vector<float> known(depth.begin(), depth.end());
   for (float& z : known)
     if (!std::isfinite(z)) z = 0;
-  append_floats(bytes, known.data(), known.size());
-  write_file_atomically(path, bytes);
+  write_map(path, depth.width(), depth.height(), known);
+}
+
+void write_colmap_normal_map(const fs::path& path, const FloatMap& depth, const Camera& camera) {
+  const int width = depth.width(), height = depth.height();
+  GIGARAY_CHECK(depth.channels() == 1 && camera.width == width && camera.height == height);
+  const std::size_t size = std::size_t(width) * height;
+  std::vector<float> normals(3 * size, 0.f);
+  const auto point = [&](int u, int v) {
+    const double z = depth(u, v);
+    return Eigen::Vector3d((u - camera.centre_u) / camera.focal_u * z,
+                           (v - camera.centre_v) / camera.focal_v * z, z);
+  };
+  for (int v = 0; v < height; ++v)
+    for (int u = 0; u < width; ++u) {
+      const Eigen::Vector3d along =
+          point(std::min(u + 1, width - 1), v) - point(std::max(u - 1, 0), v);
+      const Eigen::Vector3d down =
+          point(u, std::min(v + 1, height - 1)) - point(u, std::max(v - 1, 0));
+      Eigen::Vector3d normal = along.cross(down);
+      // NaN beside a hole: no normal.
+      if (!std::isfinite(depth(u, v)) || !(normal.norm() > 0)) continue;
+      normal.normalize();
+      if (normal.dot(point(u, v)) > 0) normal = -normal;
+      for (int c = 0; c < 3; ++c) normals[c * size + std::size_t(v) * width + u] = float(normal[c]);
+    }
+  write_map(path, width, height, normals);
 }
 
 FloatMap read_colmap_depth_map(const fs::path& path) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "colmap_dense.h"
 #include "gigaray/adapters/maps.h"
 #include "gigaray/adapters/pictures.h"
 #include "gigaray/error.h"
@@ -22,6 +23,22 @@ Image<T> cropped(const Image<T>& image, int width, int height) {
 }
 
 }  // namespace
+
+DepthFolder::DepthFolder(const std::filesystem::path& target, std::set<MapFormat> formats,
+                         LightField light_field)
+    : folder_(target, kDepthFormat),
+      formats_(std::move(formats)),
+      light_field_(std::move(light_field)) {
+  if (!formats_.contains(MapFormat::kColmap)) return;
+  if (light_field_.kind != LightFieldKind::kUnstructured)
+    throw Error(ErrorCode::kInvalidArgument,
+                "--format colmap: goes with photographs whose cameras are known, not with a light "
+                "field of the format " +
+                    light_field_.format);
+  colmap_ = std::make_unique<ColmapDense>(folder_.path() / "colmap");
+}
+
+DepthFolder::~DepthFolder() = default;
 
 void DepthFolder::write_maps(const std::filesystem::path& folder, const FloatMap& disparity,
                              const FloatMap& confidence, DisparityRange pictured) const {
@@ -42,12 +59,18 @@ void DepthFolder::write_maps(const std::filesystem::path& folder, const FloatMap
     write_png16(folder / "disparity16.png", disparity, pictured);
 }
 
-void DepthFolder::write_picture(const std::filesystem::path& folder, int view_idx) const {
+void DepthFolder::write_unstructured(const std::filesystem::path& folder, int view_idx,
+                                     const FloatMap& disparity, bool is_centre) {
+  const Camera& camera = light_field_.cameras[view_idx];
+  const int bit_depth = light_field_.pixels->bit_depth();
   Image<std::uint16_t> picture = read_view(light_field_, view_idx);
   take_mask(picture);
-  const Camera& camera = light_field_.cameras[view_idx];
-  write_png(folder / "picture.png", cropped(picture, camera.width, camera.height),
-            light_field_.pixels->bit_depth());
+  picture = cropped(picture, camera.width, camera.height);
+  write_png(folder / "picture.png", picture, bit_depth);
+  if (is_centre) write_png(folder_.path() / "picture.png", picture, bit_depth);
+  if (colmap_)
+    colmap_->add(light_field_.views[view_idx].name, camera, picture, bit_depth,
+                 depth_from_disparity(disparity, light_field_));
 }
 
 void DepthFolder::write_view(int view_idx, FloatMap disparity, FloatMap confidence,
@@ -61,15 +84,14 @@ void DepthFolder::write_view(int view_idx, FloatMap disparity, FloatMap confiden
     const Camera& camera = light_field_.cameras[view_idx];
     disparity = cropped(disparity, camera.width, camera.height);
     confidence = cropped(confidence, camera.width, camera.height);
-    write_picture(folder, view_idx);
+    write_unstructured(folder, view_idx, disparity, is_centre);
   }
   write_maps(folder, disparity, confidence, pictured);
-  if (!is_centre) return;
-  write_maps(folder_.path(), disparity, confidence, pictured);
-  if (unstructured) write_picture(folder_.path(), view_idx);
+  if (is_centre) write_maps(folder_.path(), disparity, confidence, pictured);
 }
 
 void DepthFolder::commit(const std::string& json) {
+  if (colmap_) colmap_->finish();
   write_file_atomically(folder_.path() / "gigaray.json", json + "\n");
   folder_.commit();
 }

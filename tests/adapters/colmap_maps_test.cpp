@@ -3,6 +3,7 @@
 #include "gigaray/adapters/colmap_maps.h"
 
 #include <cmath>
+#include <cstring>
 #include <limits>
 
 #include "adapters/adapters_test.h"
@@ -62,6 +63,39 @@ TEST_F(ColmapMaps, DamagedFilesAreNamed) {
   refused("1000000&1000000&1&" + std::string(7, 'x'), "cut short");
   refused("2&1&1&" + std::string(9, 'x'), "too long");
   expect_error(ErrorCode::kIo, "nowhere", [&] { read_colmap_depth_map(folder / "nowhere"); });
+}
+
+TEST_F(ColmapMaps, NormalsOfAPlaneAreItsOwn) {
+  Camera camera;
+  camera.width = 23;
+  camera.height = 17;
+  camera.focal_u = 30;
+  camera.focal_v = 31;
+  camera.centre_u = 11;
+  camera.centre_v = 8;
+  // n · X = -1
+  const Eigen::Vector3d normal = Eigen::Vector3d(0.2, -0.1, -0.3);
+  FloatMap depth(camera.width, camera.height);
+  for (int v = 0; v < camera.height; ++v)
+    for (int u = 0; u < camera.width; ++u)
+      depth(u, v) = float(-1 / normal.dot(camera.back_project(u, v, 1)));
+  depth(4, 5) = kNoEstimate;
+  write_colmap_normal_map(folder / "n.bin", depth, camera);
+  const std::string bytes = read("n.bin");
+  const std::string head = "23&17&3&";
+  ASSERT_EQ(bytes.substr(0, head.size()), head);
+  ASSERT_EQ(bytes.size(), head.size() + 3 * 23 * 17 * sizeof(float));
+  const auto value = [&](int u, int v, int c) {
+    float x;
+    std::memcpy(&x, bytes.data() + head.size() + sizeof(float) * ((c * 17 + v) * 23 + u), sizeof x);
+    return x;
+  };
+  for (int c = 0; c < 3; ++c) {
+    EXPECT_NEAR(value(12, 9, c), normal.normalized()[c], 1e-4);
+    EXPECT_NEAR(value(0, 16, c), normal.normalized()[c], 1e-4);
+    EXPECT_EQ(value(4, 5, c), 0);
+    EXPECT_EQ(value(5, 5, c), 0);  // beside the hole
+  }
 }
 
 }  // namespace

@@ -97,6 +97,26 @@ TEST_F(Photographs, OfNothingInCommonAreRefusedWithWhatToTry) {
   EXPECT_FALSE(names_in(".").contains("out"));
 }
 
+TEST_F(Photographs, ADenseWorkspaceIsFusedByColmapItself) {
+  photograph();
+  const Result result = run(std::string("depth walk -o out --format colmap") + kFast);
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  ASSERT_EQ(std::system(("cd '" + folder.string() +
+                         "' && colmap stereo_fusion --workspace_path out/colmap --output_path "
+                         "points.ply --StereoFusion.min_num_pixels 3 >fusion.log 2>&1")
+                            .c_str()),
+            0)
+      << text_of("fusion.log");
+  const std::string points = text_of("points.ply");
+  const std::string head = "element vertex ";
+  const auto at = points.find(head);
+  ASSERT_NE(at, std::string::npos);
+  EXPECT_GT(std::stoi(points.substr(at + head.size())), 5000);
+
+  ASSERT_EQ(run("synth planes -o row --views 3 --width 40 --height 31").exit_code, 0);
+  expect_refusal("depth row -o other --format colmap", 2, "--format colmap");
+}
+
 TEST_F(Photographs, MasksLeaveOutWhatIsBlack) {
   photograph();
   std::filesystem::create_directory(folder / "masks");

@@ -23,8 +23,8 @@ class AtomicFolder {
  public:
   /// Creates TARGET.partial-<process id> beside `target`, and the folders above. A target that
   /// exists is accepted when it is an empty folder, or when its `description` has
-  /// "format": `format`, an earlier output of the same kind: commit() replaces it. Anything else is refused
-  /// with Error(kInvalidArgument); Error(kIo) when the place can't be written.
+  /// "format": `format`, an earlier output of the same kind: commit() replaces it. Anything else is
+  /// refused with Error(kInvalidArgument); Error(kIo) when the place can't be written.
   AtomicFolder(const std::filesystem::path& target, std::string format,
                std::string description = "gigaray.json");
   ~AtomicFolder();

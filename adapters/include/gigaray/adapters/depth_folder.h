@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <set>
 #include <string>
 
@@ -12,11 +13,18 @@
 
 namespace gigaray {
 
+class ColmapDense;
+
 /// Value of "format" in the gigaray.json of an output folder of `gigaray depth`.
 inline constexpr const char* kDepthFormat = "gigaray depth";
 
 /// Formats of maps beside the PFM files.
-enum class MapFormat { kExr, kNpy, kPng16 };
+enum class MapFormat {
+  kExr,
+  kNpy,
+  kPng16,
+  kColmap,  ///< unstructured: a dense workspace in the folder "colmap", for `colmap stereo_fusion`
+};
 
 /// The output folder of `gigaray depth` (docs/formats.md): VIEW/disparity.pfm, VIEW/confidence.pfm
 /// and VIEW/depth.png (and VIEW/depth.pfm in scene units, if the rig is known, and of unstructured
@@ -24,12 +32,11 @@ enum class MapFormat { kExr, kNpy, kPng16 };
 /// of the centre view also at top level, gigaray.json. Appears only when complete.
 class DepthFolder {
  public:
-  /// Make it before the work: throws like AtomicFolder when the place can't be used.
+  /// Make it before the work: throws like AtomicFolder when the place can't be used, and
+  /// Error(kInvalidArgument) for a format that doesn't go with the light field.
   DepthFolder(const std::filesystem::path& target, std::set<MapFormat> formats,
-              LightField light_field)
-      : folder_(target, kDepthFormat),
-        formats_(std::move(formats)),
-        light_field_(std::move(light_field)) {}
+              LightField light_field);
+  ~DepthFolder();
 
   /// disparity, confidence: (v, u) of the view, NaN where there is no estimate. Cut to the size of
   /// the view's own picture. pictured: range of the colours of depth.png and of 16-bit PNGs.
@@ -42,11 +49,13 @@ class DepthFolder {
  private:
   void write_maps(const std::filesystem::path& folder, const FloatMap& disparity,
                   const FloatMap& confidence, DisparityRange pictured) const;
-  void write_picture(const std::filesystem::path& folder, int view_idx) const;
+  void write_unstructured(const std::filesystem::path& folder, int view_idx,
+                          const FloatMap& disparity, bool is_centre);
 
   AtomicFolder folder_;
   std::set<MapFormat> formats_;
   LightField light_field_;
+  std::unique_ptr<ColmapDense> colmap_;  ///< if asked for
 };
 
 }  // namespace gigaray
