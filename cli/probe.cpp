@@ -87,14 +87,17 @@ void print_text(const Finding& finding, const LightField& light_field) {
   const HypothesisRange& range = finding.curve.hypotheses;
   line("pixel", fmt::format("u {}, v {} of {} (s {:.4g}, t {:.4g})", finding.u, finding.v,
                             view.name, view.s, view.t));
-  line("hypotheses", fmt::format("{}, {:.4g} … {:.4g} px per view step, one every {:.4g}",
-                                 range.count, range.min, range.max, range.step()));
+  const bool unstructured = light_field.kind == LightFieldKind::kUnstructured;
+  const char* unit = unstructured ? "(inverse depth)" : "px per view step";
+  line("hypotheses", fmt::format("{}, {:.4g} … {:.4g} {}, one every {:.4g}", range.count, range.min,
+                                 range.max, unit, range.step()));
   if (!finding.best) {
     line("disparity", "none: too few views see this pixel at any hypothesis");
     return;
   }
   const float confidence = finding.curve.confidence;
-  line("disparity", fmt::format("{:.4f} px per view step", finding.curve.disparity));
+  line("disparity", fmt::format("{:.4f} {}", finding.curve.disparity, unit));
+  if (unstructured) line("depth", fmt::format("{:.4g}", 1 / finding.curve.disparity));
   line("confidence", fmt::format("{:.4f}, best score minus mean score{}", confidence,
                                  confidence <= finding.min_confidence
                                      ? fmt::format("; at most {:g}: left to coarser levels",
@@ -236,7 +239,9 @@ void run(const Settings& settings, const RunControl& control) {
   const std::string json =
       to_json(finding, light_field).dump(2, ' ', false, ordered_json::error_handler_t::replace);
   if (folder) {
-    write_png(folder->path() / "epi.png", epi_picture(finding, light_field, control), 8);
+    // Rays of unstructured views lie in no common rows.
+    if (light_field.kind != LightFieldKind::kUnstructured)
+      write_png(folder->path() / "epi.png", epi_picture(finding, light_field, control), 8);
     write_png(folder->path() / "samples.png", samples_picture(finding, light_field), 8);
     write_png(folder->path() / "scores.png", scores_picture(finding), 8);
     write_file_atomically(folder->path() / "gigaray.json", json + "\n");

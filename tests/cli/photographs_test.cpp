@@ -158,5 +158,14 @@ TEST_F(Photographs, AreShrunkOnDemand) {
   EXPECT_EQ(report("out").at("light_field").at("height"), 80);
 }
 
+TEST_F(Photographs, AProbeSpeaksOfInverseDepth) {
+  photograph();
+  const Result result = run(std::string("probe walk --at 120 80 -o out") + kFast);
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(result.out.find("(inverse depth)"), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("\ndepth "), std::string::npos) << result.out;
+  EXPECT_EQ(names_in("out"), (Names{"gigaray.json", "samples.png", "scores.png"}));
+}
+
 }  // namespace
 }  // namespace gigaray
