@@ -29,12 +29,11 @@ ColmapModel colmap_model(const SyntheticCapture& capture, double distortion) {
   constexpr std::uint32_t kCameraId = 1;
   ColmapModel model;
   const Camera& camera = capture.cameras.front();
-  model.cameras[kCameraId] = {
-      distortion == 0 ? "SIMPLE_PINHOLE" : "SIMPLE_RADIAL",
-      camera.width,
-      camera.height,
-      {camera.focal_u, camera.centre_u + kCorner, camera.centre_v + kCorner}};
-  if (distortion != 0) model.cameras[kCameraId].params.push_back(distortion);
+  Lens& lens = model.cameras[kCameraId] = pinhole_lens(camera);
+  if (distortion != 0) {
+    lens.model = "SIMPLE_RADIAL";
+    lens.params = {lens.params[0], lens.params[2], lens.params[3], distortion};
+  }
   for (std::size_t i = 0; i < capture.cameras.size(); ++i) {
     ColmapModel::Image image;
     image.id = std::uint32_t(i + 1);

@@ -24,17 +24,12 @@ void ColmapDense::add(const std::string& view, const Camera& camera,
   write_colmap_depth_map(colmap_depth_map_path(folder_, name), depth);
   write_colmap_normal_map(colmap_normal_map_path(folder_, name), depth, camera);
 
-  constexpr double kCorner = 0.5;  // COLMAP's pixels have their corner at integers
   ColmapModel::Image image;
   image.id = image.camera_id = std::uint32_t(model_.images.size() + 1);
   image.rotation = Eigen::Quaterniond(camera.rotation).normalized();
   image.translation = camera.translation;
   image.name = name;
-  model_.cameras[image.camera_id] = {
-      "PINHOLE",
-      camera.width,
-      camera.height,
-      {camera.focal_u, camera.focal_v, camera.centre_u + kCorner, camera.centre_v + kCorner}};
+  model_.cameras[image.camera_id] = pinhole_lens(camera);
   model_.images.push_back(std::move(image));
 
   constexpr double kMostPoints = 2000;
@@ -56,7 +51,7 @@ void ColmapDense::add(const std::string& view, const Camera& camera,
 
 void ColmapDense::add_points() {
   constexpr double kAgree = 0.02;  // of the depth
-  constexpr double kCorner = 0.5;
+  constexpr double kCorner = 0.5;  // COLMAP's pixels have their corner at integers
   for (std::size_t i = 0; i < rasters_.size(); ++i) {
     const Raster& raster = rasters_[i];
     for (int v = 0; v < raster.depth.height(); ++v)

@@ -144,6 +144,14 @@ void check(const Lens& lens, const std::string& where) {
     bad("a field of view of 180 degrees or more is absurd");
 }
 
+Lens pinhole_lens(const Camera& camera) {
+  constexpr double kCorner = 0.5;  // Lens has pixel corners at integers
+  return {"PINHOLE",
+          camera.width,
+          camera.height,
+          {camera.focal_u, camera.focal_v, camera.centre_u + kCorner, camera.centre_v + kCorner}};
+}
+
 bool is_pinhole(const Lens& lens) {
   const Model& model = model_of(lens);
   return !model.fisheye && std::all_of(lens.params.end() - model.num_distortion, lens.params.end(),

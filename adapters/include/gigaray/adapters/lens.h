@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "gigaray/camera.h"
+
 namespace gigaray {
 
 /// A lens as COLMAP describes it: one of its camera models and the parameters in COLMAP's order,
@@ -30,6 +32,9 @@ int num_lens_params(const std::string& model);
 /// parameters, parameters that are not finite, sizes or focal lengths that are not positive or
 /// absurd.
 void check(const Lens& lens, const std::string& where);
+
+/// The lens, a PINHOLE, of a camera without distortion.
+Lens pinhole_lens(const Camera& camera);
 
 /// Where the lens shows a direction (x / z, y / z) of the camera, px with pixel centres at
 /// integers (gigaray::Camera's convention). Empty where the model maps nothing (beyond its field).
