@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Gigaray authors
+// What tells photographs from anywhere from a row; pictures that are shrunk.
+#include "gigaray/adapters/photographs.h"
+
+#include "adapters/adapters_test.h"
+#include "adapters/colmap_scene.h"
+#include "adapters/light_field_files.h"
+#include "adapters/textured_planes.h"
+#include "gigaray/adapters/colmap_model.h"
+#include "gigaray/adapters/shrunk.h"
+
+namespace gigaray {
+namespace {
+
+class PlainPhotographs : public AdaptersTest {
+ protected:
+  /// Pictures of cameras that step by `right` and `down`, scene units.
+  void photograph(double right, double down, int count = 4) const {
+    for (int i = 0; i < count; ++i) {
+      Camera camera;
+      camera.width = 400;
+      camera.height = 300;
+      camera.focal_u = camera.focal_v = 380;
+      camera.centre_u = 199.5;
+      camera.centre_v = 149.5;
+      camera.translation = {-right * i, -down * i, 0};
+      save("p" + std::to_string(i) + ".png", textured_planes(camera));
+    }
+  }
+  std::optional<double> across() const {
+    return displacement_across_rows(open_light_field(folder), RunControl());
+  }
+};
+
+TEST_F(PlainPhotographs, ARowMovesAlongItsRowsAlone) {
+  photograph(0.1, 0);
+  EXPECT_EQ(why_no_series(folder), "");
+  const auto px = across();
+  ASSERT_TRUE(px);
+  EXPECT_LT(*px, 0.5);
+}
+
+TEST_F(PlainPhotographs, AColumnIsARowToo) {
+  photograph(0, 0.1);
+  const auto px = across();
+  ASSERT_TRUE(px);
+  EXPECT_LT(*px, 0.5);
+}
+
+TEST_F(PlainPhotographs, AWalkMovesAcrossThem) {
+  photograph(0.1, 0.06);
+  const auto px = across();
+  ASSERT_TRUE(px);
+  EXPECT_GT(*px, kMostAcrossRows);
+}
+
+TEST_F(PlainPhotographs, NamesAndSizesSayMuch) {
+  save("a.png");
+  save("b.png");
+  EXPECT_NE(why_no_series(folder), "");
+  EXPECT_TRUE(is_plain_folder(folder, {}));
+  write_colmap_model(folder / "sparse", colmap_scene(), ColmapFormat::kText);
+  EXPECT_FALSE(is_plain_folder(folder, {}));
+}
+
+TEST_F(PlainPhotographs, UprightOnesAndOnesOnTheirSideAreNoRow) {
+  for (int i = 0; i < 4; ++i)
+    save("p" + std::to_string(i) + ".png",
+         picture(CV_8UC3, i == 2 ? kHeight : kWidth, i == 2 ? kWidth : kHeight));
+  EXPECT_NE(why_no_series(folder), "");
+}
+
+TEST(Shrunk, CamerasAndDisparitiesFollow) {
+  LightField row = planes_seen_from({{"a", -0.5, 0}, {"b", 0.5, 0}}, 96, 64);
+  row.declared_range = DisparityRange{-1, 2};
+  row.rig.focal_px = 120;
+  const LightField small = shrunk(row, 48);
+  EXPECT_EQ(small.width, 48);
+  EXPECT_EQ(small.height, 32);
+  EXPECT_DOUBLE_EQ(*small.rig.focal_px, 60);
+  EXPECT_EQ(*small.declared_range, (DisparityRange{-0.5, 1}));
+  const Image<std::uint16_t> full = row.pixels->read(1), half = small.pixels->read(1);
+  for (int c = 0; c < 3; ++c) {
+    const double mean =
+        (full(20, 10, c) + full(21, 10, c) + full(20, 11, c) + full(21, 11, c)) / 4.0;
+    EXPECT_NEAR(half(10, 5, c), mean, 1);
+  }
+  EXPECT_EQ(shrunk(row, 96).width, 96);
+  testing_support::expect_error(ErrorCode::kInvalidArgument, {"15"}, [&] { shrunk(row, 15); });
+}
+
+TEST_F(PlainPhotographs, ShrunkCamerasSeeTheSamePoints) {
+  const ColmapModel model = colmap_scene();
+  for (const auto& image : model.images) save("images/" + image.name, picture(CV_8UC3, 46, 34));
+  ColmapModel large = model;
+  large.cameras[7] = {"PINHOLE", 46, 34, {60, 62, 23, 17}};
+  write_colmap_model(folder / "sparse", large, ColmapFormat::kText);
+  const LightField full = open_light_field(folder), small = shrunk(full, 23);
+  EXPECT_EQ(small.width, 23);
+  for (int i = 0; i < 3; ++i)
+    for (const auto& point : model.points) {
+      const Eigen::Vector3d at = full.cameras[i].project(point.position);
+      const Eigen::Vector3d then = small.cameras[i].project(point.position);
+      // The middle of a block of 2 × 2 pixels is the middle of one.
+      EXPECT_NEAR(then.x(), (at.x() - 0.5) / 2, 1e-9);
+      EXPECT_NEAR(then.y(), (at.y() - 0.5) / 2, 1e-9);
+    }
+}
+
+}  // namespace
+}  // namespace gigaray
