@@ -134,11 +134,12 @@ RowRange UnstructuredSampler::rows_needed(int ref, RowRange rows, HypothesisRang
                                           int height) const {
   // A quotient of linear functions takes its extremes at the corners of (u, v, w), as long as all
   // are before the camera.
-  RowRange needed = grown(rows, 0, height);
+  const RowRange own = grown(rows, 0, height);
+  RowRange needed = own;
   const double right = cameras_[ref].width - 1;
   for (const int other : partners_[ref]) {
     if (other == ref) continue;
-    double top = needed.begin, bottom = needed.end - 1;
+    double top = own.begin, bottom = own.end - 1;
     for (const double u : {0.0, right})
       for (const int v : {rows.begin, rows.end - 1})
         for (const double h : {range.min, range.max}) {

@@ -146,5 +146,37 @@ TEST(MemoryPlan, AnImpossibleLimitSaysWhatItTakes) {
                [&] { plan(light_field, 100); });
 }
 
+/// Cameras that look ahead, `step` scene units apart down a line.
+LightField column_of_cameras(int num_views, double step) {
+  LightField light_field = described(row_of_views(num_views), 2048, 1536);
+  light_field.kind = LightFieldKind::kUnstructured;
+  for (int i = 0; i < num_views; ++i) {
+    Camera camera;
+    camera.width = 2048;
+    camera.height = 1536;
+    camera.focal_u = camera.focal_v = 2458;
+    camera.centre_u = 1023.5;
+    camera.centre_v = 767.5;
+    camera.translation = {0, -step * i, 0};
+    camera.inverse_depth = InverseDepthRange{0.4, 1};
+    light_field.cameras.push_back(camera);
+  }
+  return light_field;
+}
+
+TEST(MemoryPlan, UnstructuredViewsThatReachFarSayWhatHelps) {
+  DepthOptions options = auto_options();
+  options.memory_bytes = 16384 * kMiB;
+  options.work_folder = "work";
+  const HypothesisRange hypotheses{0, 1, 64};
+  LightField near = column_of_cameras(100, 0.0005);
+  EXPECT_LE(plan_memory(near, options, hypotheses).forecast.bands, 16);
+  LightField far = column_of_cameras(100, 0.002);
+  expect_error(ErrorCode::kOutOfMemory, {"--partners", "--max-size"},
+               [&] { plan_memory(far, options, hypotheses); });
+  far.most_partners = 20;
+  EXPECT_NO_THROW(plan_memory(far, options, hypotheses));
+}
+
 }  // namespace
 }  // namespace gigaray

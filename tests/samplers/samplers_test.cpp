@@ -130,6 +130,14 @@ TEST(Samplers, PartnersShareTheSceneUnderSmallAngles) {
   EXPECT_EQ(UnstructuredSampler(ring, 1).partners(5).size(), 2u);
 }
 
+TEST(Samplers, RowsOfARectifiedRowStayThoseOfTheBandForAnyNumberOfViews) {
+  const UnstructuredSampler sampler(rectified_cameras(row_of_views(40), {1, 3}, 100, 0.1));
+  ASSERT_GT(sampler.partners(20).size(), 30u);
+  const RowRange needed = sampler.rows_needed(20, {30, 35}, {0, 1, 9}, 71);
+  EXPECT_GE(needed.begin, 28);  // rounding
+  EXPECT_LE(needed.end, 37);
+}
+
 TEST(Samplers, UnstructuredSeesNothingBehindACamera) {
   std::vector<Camera> cameras = rectified_cameras(row_of_views(2), {1, 3}, 100, 0.1);
   cameras[1].rotation =

@@ -250,6 +250,11 @@ MemoryPlan plan_memory(const LightField& light_field, const DepthOptions& option
   auto in_memory = planner.plan(limit, usual, false);
   auto in_files = planner.plan(limit, usual, true);
   if (!in_memory && !in_files) in_files = planner.plan(limit, planner.least_volume(), true);
+  if (!in_memory && !in_files && planner.least_limit() <= limit)
+    throw Error(ErrorCode::kOutOfMemory,
+                "the rays of one row reach so much of " + std::to_string(light_field.num_views()) +
+                    " views that it doesn't fit into one buffer of a device; compare fewer views "
+                    "(--partners) or smaller pictures (--max-size)");
   if (!in_memory && !in_files)
     throw Error(ErrorCode::kOutOfMemory,
                 "memory of " + std::to_string(int(limit / kMiB)) +
