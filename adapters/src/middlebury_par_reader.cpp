@@ -25,19 +25,14 @@ bool is_par_file(const fs::path& path) {
   return path.filename().string().ends_with("_par.txt") && fs::is_regular_file(path, ignored);
 }
 
-/// Empty when there is none.
-fs::path par_file_of(const fs::path& input) {
-  if (is_par_file(input)) return input;
+std::vector<fs::path> par_files_of(const fs::path& input) {
+  if (is_par_file(input)) return {input};
   std::error_code ignored;
-  if (!fs::is_directory(input, ignored)) return {};
   std::vector<fs::path> found;
+  if (!fs::is_directory(input, ignored)) return found;
   for (const fs::path& path : files_of(input))
     if (is_par_file(path)) found.push_back(path);
-  if (found.size() > 1)
-    throw Error(ErrorCode::kBadInput, input.string() + ": holds " + std::to_string(found.size()) +
-                                          " files of cameras; name one of them, such as " +
-                                          found.front().string());
-  return found.empty() ? fs::path() : found.front();
+  return found;
 }
 
 class MiddleburyParReader : public Reader {
@@ -45,12 +40,17 @@ class MiddleburyParReader : public Reader {
   std::string name() const override { return kName; }
 
   ProbeResult probe(const fs::path& input) const override {
-    return {par_file_of(input).empty() ? 0 : 75, ""};
+    return {par_files_of(input).empty() ? 0 : 75, ""};
   }
 
   LightField open(const fs::path& input, const OpenOptions& options) const override {
     refuse_direction(options, "the file of cameras states");
-    const fs::path file = par_file_of(input);
+    const std::vector<fs::path> files = par_files_of(input);
+    if (files.size() > 1)
+      throw Error(ErrorCode::kBadInput, input.string() + ": holds " + std::to_string(files.size()) +
+                                            " files of cameras; name one of them, such as " +
+                                            files.front().string());
+    const fs::path& file = files.front();
     return open_stated_views(parse_middlebury_par(read_bytes(file), file.string()), file,
                              {file.parent_path(), file.parent_path() / "images"}, options, kName);
   }

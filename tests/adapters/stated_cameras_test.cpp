@@ -292,6 +292,9 @@ TEST_F(StatedCameras, MiddleburyParShowsAKnownPointInItsPixel) {
   EXPECT_FALSE(open_light_field(folder).cameras[0].inverse_depth);
   write("scene2_par.txt", par());
   expect_bad(".", "name one of them");
+  // They don't stand in the way of what tells more.
+  write_colmap_model(folder / "sparse/0", model, ColmapFormat::kText);
+  EXPECT_EQ(open_light_field(folder).format, "COLMAP workspace");
 }
 
 TEST_F(StatedCameras, DamagedMiddleburyParIsOneLine) {
