@@ -95,7 +95,9 @@ RectifiedRail find_cameras_and_calibrate(const RailPhotographs& in_order,
     why = fmt::format("COLMAP found only {} of {} cameras", posed.pictures.size(),
                       in_order.pictures.size());
   } catch (const Error& error) {
-    if (must || error.code() == ErrorCode::kCancelled) throw;
+    const bool is_of_colmap =
+        error.code() == ErrorCode::kBadInput || error.code() == ErrorCode::kIo;
+    if (must || !is_of_colmap) throw;
     why = error.what();
   }
   control.message(why + "; the order of the photographs is the start instead");

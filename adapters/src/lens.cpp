@@ -144,6 +144,10 @@ void check(const Lens& lens, const std::string& where) {
     bad("a field of view of 180 degrees or more is absurd");
 }
 
+Lens centred_pinhole(int width, int height, double focal) {
+  return {"SIMPLE_PINHOLE", width, height, {focal, width / 2.0, height / 2.0}};
+}
+
 Lens pinhole_lens(const Camera& camera) {
   constexpr double kCorner = 0.5;  // Lens has pixel corners at integers
   return {"PINHOLE",

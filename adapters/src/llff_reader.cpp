@@ -92,10 +92,7 @@ std::vector<StatedView> parse_poses_bounds(std::string_view bytes, const std::st
     constexpr double kMost = 1 << 20;
     if (!(width >= 1 && width <= kMost && height >= 1 && height <= kMost))
       throw Error(ErrorCode::kBadInput, place + ": has no valid size of its picture");
-    view.lens = {"SIMPLE_PINHOLE",
-                 int(std::lround(width)),
-                 int(std::lround(height)),
-                 {focal, width / 2, height / 2}};
+    view.lens = centred_pinhole(int(std::lround(width)), int(std::lround(height)), focal);
     check(view.lens, place);
     const double nearest = rows(i, 15), farthest = rows(i, 16);
     if (nearest > 0 && nearest < farthest && std::isfinite(farthest))

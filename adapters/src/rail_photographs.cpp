@@ -57,10 +57,6 @@ std::optional<double> focal_of_exif(const fs::path& file, int width, int height)
   }
 }
 
-Lens pinhole(int width, int height, double focal) {
-  return {"SIMPLE_PINHOLE", width, height, {focal, width / 2.0, height / 2.0}};
-}
-
 Lens lens_of(const KnownLens& known, RailPhotographs& photographs) {
   const int width = photographs.width, height = photographs.height;
   if (known.lens) {
@@ -76,7 +72,7 @@ Lens lens_of(const KnownLens& known, RailPhotographs& photographs) {
   }
   photographs.distortion_is_known = false;
   if (known.focal_px) {
-    const Lens lens = pinhole(width, height, *known.focal_px);
+    const Lens lens = centred_pinhole(width, height, *known.focal_px);
     try {
       check(lens, "the focal length");
     } catch (const Error& error) {
@@ -87,7 +83,7 @@ Lens lens_of(const KnownLens& known, RailPhotographs& photographs) {
   if (const auto focal = focal_of_exif(photographs.pictures.front().file, width, height)) {
     photographs.lens_note =
         "the focal length is that of the EXIF data, " + std::to_string(std::lround(*focal)) + " px";
-    return pinhole(width, height, *focal);
+    return centred_pinhole(width, height, *focal);
   }
   constexpr double kUsual = 1.2;  // a camera's normal zoom, as COLMAP assumes it too
   const double focal = kUsual * std::max(width, height);
@@ -95,7 +91,7 @@ Lens lens_of(const KnownLens& known, RailPhotographs& photographs) {
   photographs.lens_note = "the focal length is not known, " + std::to_string(std::lround(focal)) +
                           " px is assumed: rows become epipolar lines all the same, the scale of "
                           "depth stays open (--focal states it)";
-  return pinhole(width, height, focal);
+  return centred_pinhole(width, height, focal);
 }
 
 }  // namespace

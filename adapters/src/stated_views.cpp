@@ -60,10 +60,9 @@ void complete_lens(StatedView& view, const fs::path& picture) {
   const PictureSpec spec = read_picture_spec(picture, Orientation::kIgnored);
   lens.width = spec.width;
   lens.height = spec.height;
-  if (!view.field_of_view) return;
-  const double focal = spec.width / 2.0 / std::tan(*view.field_of_view / 2);
-  lens.model = "SIMPLE_PINHOLE";
-  lens.params = {focal, spec.width / 2.0, spec.height / 2.0};
+  if (view.field_of_view)
+    lens = centred_pinhole(spec.width, spec.height,
+                           spec.width / 2.0 / std::tan(*view.field_of_view / 2));
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "adapters/textured_planes.h"
 #include "gigaray/adapters/colmap_model.h"
 #include "gigaray/adapters/shrunk.h"
+#include "support/cameras.h"
 
 namespace gigaray {
 namespace {
@@ -18,12 +19,7 @@ class PlainPhotographs : public AdaptersTest {
   /// Pictures of cameras that step by `right` and `down`, scene units.
   void photograph(double right, double down, int count = 4) const {
     for (int i = 0; i < count; ++i) {
-      Camera camera;
-      camera.width = 400;
-      camera.height = 300;
-      camera.focal_u = camera.focal_v = 380;
-      camera.centre_u = 199.5;
-      camera.centre_v = 149.5;
+      Camera camera = testing_support::centred_camera(400, 300, 380);
       camera.translation = {-right * i, -down * i, 0};
       save("p" + std::to_string(i) + ".png", textured_planes(camera));
     }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "gigaray/camera.h"
+#include "support/cameras.h"
 
 namespace gigaray {
 
@@ -70,12 +71,7 @@ inline cv::Mat textured_planes(const Camera& camera) {
 inline std::vector<Camera> cameras_before_planes(int count) {
   std::vector<Camera> cameras;
   for (int i = 0; i < count; ++i) {
-    Camera camera;
-    camera.width = 400;
-    camera.height = 300;
-    camera.focal_u = camera.focal_v = 380;
-    camera.centre_u = 199.5;
-    camera.centre_v = 149.5;
+    Camera camera = testing_support::centred_camera(400, 300, 380);
     const double x = 0.35 * (i - (count - 1) / 2.0), y = i % 2 ? 0.2 : -0.15;
     camera.rotation = Eigen::AngleAxisd(std::atan(x / 5.5), Eigen::Vector3d::UnitY()).matrix() *
                       Eigen::AngleAxisd(0.02 * (i % 3), Eigen::Vector3d::UnitZ()).matrix();

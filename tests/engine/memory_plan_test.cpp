@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "support/analytic_field.h"
+#include "support/cameras.h"
 #include "support/errors.h"
 
 namespace gigaray {
@@ -151,12 +152,7 @@ LightField column_of_cameras(int num_views, double step) {
   LightField light_field = described(row_of_views(num_views), 2048, 1536);
   light_field.kind = LightFieldKind::kUnstructured;
   for (int i = 0; i < num_views; ++i) {
-    Camera camera;
-    camera.width = 2048;
-    camera.height = 1536;
-    camera.focal_u = camera.focal_v = 2458;
-    camera.centre_u = 1023.5;
-    camera.centre_v = 767.5;
+    Camera camera = centred_camera(2048, 1536, 2458);
     camera.translation = {0, -step * i, 0};
     camera.inverse_depth = InverseDepthRange{0.4, 1};
     light_field.cameras.push_back(camera);

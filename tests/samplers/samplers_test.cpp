@@ -7,6 +7,7 @@
 #include "gigaray/samplers/any_sampler.h"
 #include "samplers/sampler_laws.h"
 #include "support/analytic_field.h"
+#include "support/cameras.h"
 #include "support/errors.h"
 
 namespace gigaray::testing_support {
@@ -113,12 +114,7 @@ TEST(Samplers, PartnersShareTheSceneUnderSmallAngles) {
   // A ring of cameras that look at its middle, 30 degrees apart.
   std::vector<Camera> ring;
   for (int i = 0; i < 12; ++i) {
-    Camera camera;
-    camera.width = 93;
-    camera.height = 71;
-    camera.focal_u = camera.focal_v = 100;
-    camera.centre_u = 46;
-    camera.centre_v = 35;
+    Camera camera = testing_support::centred_camera(93, 71, 100);
     const double angle = i * std::numbers::pi / 6;
     camera.rotation = Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitY()).toRotationMatrix();
     camera.translation = {0, 0, 10};

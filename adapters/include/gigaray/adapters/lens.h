@@ -33,6 +33,9 @@ int num_lens_params(const std::string& model);
 /// absurd.
 void check(const Lens& lens, const std::string& where);
 
+/// A SIMPLE_PINHOLE with its principal point in the middle of the picture. focal: px.
+Lens centred_pinhole(int width, int height, double focal);
+
 /// The lens, a PINHOLE, of a camera without distortion.
 Lens pinhole_lens(const Camera& camera);
 
