@@ -40,21 +40,52 @@ std::string format_of(const fs::path& description) {
 }  // namespace
 
 void write_file_atomically(const fs::path& path, std::string_view bytes) {
-  const fs::path temporary = temporary_beside(path);
+  AtomicFile file(path);
+  file.write(bytes);
+  file.commit();
+}
+
+AtomicFile::AtomicFile(const fs::path& path) : path_(path) {
+  std::error_code ignored;
+  if (fs::is_directory(path, ignored))
+    throw Error(ErrorCode::kInvalidArgument, path.string() + ": is a folder; name a file");
+  temporary_ = temporary_beside(path);
   errno = 0;
-  std::ofstream file(temporary, std::ios::binary);
-  file.write(bytes.data(), std::streamsize(bytes.size()));
-  file.close();
+  file_.open(temporary_, std::ios::binary);
+  check();
+}
+
+AtomicFile::~AtomicFile() {
+  std::error_code ignored;
+  if (!temporary_.empty()) fs::remove(temporary_, ignored);
+}
+
+void AtomicFile::check() {
+  if (!file_) cannot_write(path_, std::error_code(errno, std::generic_category()));
+}
+
+void AtomicFile::write(std::string_view bytes) {
+  errno = 0;
+  file_.write(bytes.data(), std::streamsize(bytes.size()));
+  check();
+}
+
+void AtomicFile::write_at_begin(std::string_view bytes) {
+  errno = 0;
+  file_.seekp(0);
+  file_.write(bytes.data(), std::streamsize(bytes.size()));
+  file_.seekp(0, std::ios::end);
+  check();
+}
+
+void AtomicFile::commit() {
+  errno = 0;
+  file_.close();
+  check();
   std::error_code error;
-  if (!file)
-    error = std::error_code(errno, std::generic_category());
-  else
-    fs::rename(temporary, path, error);
-  if (error) {
-    std::error_code ignored;
-    fs::remove(temporary, ignored);
-    cannot_write(path, error);
-  }
+  fs::rename(temporary_, path_, error);
+  if (error) cannot_write(path_, error);
+  temporary_.clear();
 }
 
 AtomicFolder::AtomicFolder(const fs::path& target, std::string format, std::string description)

@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The Gigaray authors
 #pragma once
 
+#include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -15,6 +16,17 @@ struct DescribedLightField {
   LightField light_field;
   std::vector<std::string> files;  ///< relative to the folder of the description
 };
+
+/// Kind, size, rig, range of disparities and views of a light field, without pixels: the common part
+/// of the program's own formats.
+nlohmann::ordered_json description_of(const LightField& light_field);
+/// Parts of it, and a camera as `gigaray depth` writes it. These and the next function throw
+/// Error(kBadInput) or an exception of the JSON library.
+View view_of(const nlohmann::json& entry);
+RigGeometry rig_of(const nlohmann::json& description);
+Camera camera_of(const nlohmann::json& entry, const std::string& name);
+/// The light field that it describes.
+LightField described_light_field(const nlohmann::json& description);
 
 /// Parses the text of a gigaray.json. Throws Error(kBadInput) beginning with `where`.
 DescribedLightField parse_light_field_json(std::string_view text, const std::string& where);

@@ -32,45 +32,18 @@ std::optional<double> optional_number(const json& object, const char* key) {
   return found->get<double>();
 }
 
-void read_views(const json& root, DescribedLightField& described) {
-  for (const json& entry : root.at("views")) {
-    const View view{entry.at("name"), entry.at("s"), entry.at("t")};
-    // It becomes the name of an output folder.
-    if (view.name.empty() || view.name.find('/') != std::string::npos || view.name.starts_with('.'))
-      throw Error(ErrorCode::kBadInput, in_quotes(view.name) + " can't name a view");
-    described.light_field.views.push_back(view);
-    described.files.push_back(entry.at("file").get<std::string>());
-  }
-}
+Error bad(const std::string& what) { return Error(ErrorCode::kBadInput, what); }
 
 DescribedLightField parse(const json& root) {
-  const auto bad = [](const std::string& what) { return Error(ErrorCode::kBadInput, what); };
   if (root.at("format") != kLightFieldFormat)
     throw bad("describes a " + in_quotes(root.at("format").get<std::string>()) +
               ", not a light field");
   if (root.at("version") != kVersion)
     throw bad("has version " + in_quotes(root.at("version").dump()) +
               "; this program reads version " + std::to_string(kVersion));
-  DescribedLightField described;
-  LightField& light_field = described.light_field;
-  read_views(root, described);
-  light_field.kind = kind_from_positions(light_field.views);
-  if (root.at("kind") != to_string(light_field.kind))
-    throw bad("states the kind " + in_quotes(root.at("kind").dump()) + ", its positions are " +
-              to_string(light_field.kind));
-  light_field.width = root.at("width");
-  light_field.height = root.at("height");
-  if (const auto range = root.find("disparity_range"); range != root.end() && !range->is_null()) {
-    light_field.declared_range = DisparityRange{range->at(0), range->at(1)};
-    if (!(light_field.declared_range->min < light_field.declared_range->max))
-      throw bad("its disparity_range is empty");
-  }
-  if (const auto rig = root.find("rig"); rig != root.end()) {
-    light_field.rig.focal_px = optional_number(*rig, "focal_px");
-    light_field.rig.baseline = optional_number(*rig, "baseline");
-    light_field.rig.focus_distance = optional_number(*rig, "focus_distance");
-    light_field.rig.unit = rig->value("unit", "");
-  }
+  DescribedLightField described{described_light_field(root), {}};
+  for (const json& entry : root.at("views"))
+    described.files.push_back(entry.at("file").get<std::string>());
   return described;
 }
 
@@ -105,6 +78,76 @@ class GigarayJsonReader : public Reader {
 
 }  // namespace
 
+View view_of(const json& entry) {
+  const View view{entry.at("name"), entry.at("s"), entry.at("t")};
+  // It becomes the name of an output folder.
+  if (view.name.empty() || view.name.find('/') != std::string::npos || view.name.starts_with('.'))
+    throw bad(in_quotes(view.name) + " can't name a view");
+  return view;
+}
+
+RigGeometry rig_of(const json& root) {
+  const auto rig = root.find("rig");
+  if (rig == root.end()) return {};
+  return {optional_number(*rig, "focal_px"), optional_number(*rig, "baseline"),
+          optional_number(*rig, "focus_distance"), rig->value("unit", "")};
+}
+
+Camera camera_of(const json& entry, const std::string& name) {
+  Camera camera;
+  camera.width = entry.at("width");
+  camera.height = entry.at("height");
+  camera.focal_u = entry.at("focal_px").at(0);
+  camera.focal_v = entry.at("focal_px").at(1);
+  camera.centre_u = entry.at("principal_point_px").at(0);
+  camera.centre_v = entry.at("principal_point_px").at(1);
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column)
+      camera.rotation(row, column) = entry.at("rotation").at(row).at(column);
+    camera.translation[row] = entry.at("translation").at(row);
+  }
+  if (const auto range = entry.find("inverse_depth"); range != entry.end() && !range->is_null())
+    camera.inverse_depth = InverseDepthRange{range->at(0), range->at(1)};
+  check(camera, "view " + name);
+  return camera;
+}
+
+LightField described_light_field(const json& root) {
+  LightField light_field;
+  for (const json& entry : root.at("views")) light_field.views.push_back(view_of(entry));
+  light_field.kind = kind_from_positions(light_field.views);
+  if (root.at("kind") != to_string(light_field.kind))
+    throw bad("states the kind " + in_quotes(root.at("kind").dump()) + ", its positions are " +
+              to_string(light_field.kind));
+  light_field.width = root.at("width");
+  light_field.height = root.at("height");
+  if (const auto range = root.find("disparity_range"); range != root.end() && !range->is_null()) {
+    light_field.declared_range = DisparityRange{range->at(0), range->at(1)};
+    if (!(light_field.declared_range->min < light_field.declared_range->max))
+      throw bad("its disparity_range is empty");
+  }
+  light_field.rig = rig_of(root);
+  return light_field;
+}
+
+nlohmann::ordered_json description_of(const LightField& light_field) {
+  nlohmann::ordered_json root;
+  root["kind"] = to_string(light_field.kind);
+  root["width"] = light_field.width;
+  root["height"] = light_field.height;
+  if (light_field.declared_range)
+    root["disparity_range"] = {light_field.declared_range->min, light_field.declared_range->max};
+  nlohmann::ordered_json rig = nlohmann::ordered_json::object();
+  if (light_field.rig.focal_px) rig["focal_px"] = *light_field.rig.focal_px;
+  if (light_field.rig.baseline) rig["baseline"] = *light_field.rig.baseline;
+  if (light_field.rig.focus_distance) rig["focus_distance"] = *light_field.rig.focus_distance;
+  if (!light_field.rig.unit.empty()) rig["unit"] = light_field.rig.unit;
+  root["rig"] = rig;
+  for (const View& view : light_field.views)
+    root["views"].push_back({{"name", view.name}, {"s", view.s}, {"t", view.t}});
+  return root;
+}
+
 DescribedLightField parse_light_field_json(std::string_view text, const std::string& where) {
   const auto bad = [&](const std::string& what) {
     return Error(ErrorCode::kBadInput, where + ": " + what);
@@ -126,22 +169,8 @@ void write_light_field_json(const fs::path& path, const LightField& light_field,
   nlohmann::ordered_json root;
   root["format"] = kLightFieldFormat;
   root["version"] = kVersion;
-  root["kind"] = to_string(light_field.kind);
-  root["width"] = light_field.width;
-  root["height"] = light_field.height;
-  if (light_field.declared_range)
-    root["disparity_range"] = {light_field.declared_range->min, light_field.declared_range->max};
-  nlohmann::ordered_json rig = nlohmann::ordered_json::object();
-  if (light_field.rig.focal_px) rig["focal_px"] = *light_field.rig.focal_px;
-  if (light_field.rig.baseline) rig["baseline"] = *light_field.rig.baseline;
-  if (light_field.rig.focus_distance) rig["focus_distance"] = *light_field.rig.focus_distance;
-  if (!light_field.rig.unit.empty()) rig["unit"] = light_field.rig.unit;
-  root["rig"] = rig;
-  for (std::size_t i = 0; i < files.size(); ++i) {
-    const View& view = light_field.views[i];
-    root["views"].push_back(
-        {{"name", view.name}, {"file", files[i]}, {"s", view.s}, {"t", view.t}});
-  }
+  root.update(description_of(light_field));
+  for (std::size_t i = 0; i < files.size(); ++i) root["views"][i]["file"] = files[i];
   using Handler = nlohmann::ordered_json::error_handler_t;
   write_file_atomically(path, root.dump(2, ' ', false, Handler::replace) + "\n");
 }

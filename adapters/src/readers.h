@@ -9,6 +9,7 @@
 namespace gigaray {
 
 std::unique_ptr<const Reader> gigaray_json_reader();
+std::unique_ptr<const Reader> sparse_file_reader();
 std::unique_ptr<const Reader> hci_reader();
 std::unique_ptr<const Reader> hdf5_reader();
 std::unique_ptr<const Reader> stanford_reader();

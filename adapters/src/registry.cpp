@@ -19,6 +19,7 @@ namespace fs = std::filesystem;
 std::vector<std::unique_ptr<const Reader>> all_readers() {
   std::vector<std::unique_ptr<const Reader>> all;
   all.push_back(gigaray_json_reader());
+  all.push_back(sparse_file_reader());
   all.push_back(hci_reader());
   all.push_back(hdf5_reader());
   all.push_back(stanford_reader());

@@ -7,7 +7,7 @@
 #include <cstdio>
 #include <string>
 
-#include "for_each_view.h"
+#include "gigaray/parallel.h"
 #include "synthetic_noise.h"
 #include "synthetic_options.h"
 #include "synthetic_scene.h"
@@ -129,7 +129,7 @@ void render_synthetic_views(const SyntheticOptions& options, const RunControl& c
   const std::vector<bool> has_outlier = synthetic::choose_outliers(options, int(views.size()));
   const double total = double(views.size());
   control.progress("rendering", 0, total);
-  synthetic::for_each_view(
+  parallel_for(
       int(views.size()),
       [&](int i) {
         auto [picture, disparity] = synthetic::render_view(

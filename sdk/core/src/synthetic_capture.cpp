@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "for_each_view.h"
+#include "gigaray/parallel.h"
 #include "gigaray/light_field.h"
 #include "synthetic_noise.h"
 #include "synthetic_options.h"
@@ -194,7 +194,7 @@ void render_synthetic_capture(const SyntheticOptions& options, const SyntheticPa
   const synthetic::Scene scene = synthetic::build_scene(options);
   const std::vector<bool> has_outlier = synthetic::choose_outliers(options, options.views_s);
   control.progress("rendering", 0, options.views_s);
-  synthetic::for_each_view(
+  parallel_for(
       options.views_s,
       [&](int i) {
         auto [picture, depth] = synthetic::render_view(

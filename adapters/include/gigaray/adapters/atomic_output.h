@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <fstream>
 #include <string>
 #include <string_view>
 
@@ -11,6 +12,28 @@ namespace gigaray {
 /// Writes a file beside its place and renames it there, so that nobody ever sees half of it; the
 /// temporary is removed when anything fails. Throws Error(kIo) naming the place.
 void write_file_atomically(const std::filesystem::path& path, std::string_view bytes);
+
+/// A file that is written piece by piece and appears in its place only when it is complete.
+/// Without commit() — an exception, an interrupt — what was written is removed. Throws Error(kIo)
+/// naming the place; Error(kInvalidArgument) when it is a folder.
+class AtomicFile {
+ public:
+  /// Opens a hidden file beside `path`; an older file stays until commit() replaces it.
+  explicit AtomicFile(const std::filesystem::path& path);
+  ~AtomicFile();
+  AtomicFile(const AtomicFile&) = delete;
+  AtomicFile& operator=(const AtomicFile&) = delete;
+
+  void write(std::string_view bytes);  ///< At the end of what is there.
+  void write_at_begin(std::string_view bytes);
+  void commit();
+
+ private:
+  void check();
+
+  std::filesystem::path path_, temporary_;
+  std::ofstream file_;
+};
 
 /// An output folder that appears only when it is complete.
 ///

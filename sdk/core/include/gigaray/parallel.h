@@ -10,12 +10,12 @@
 #include <thread>
 #include <vector>
 
-namespace gigaray::synthetic {
+namespace gigaray {
 
 /// Runs job(0) … job(count - 1) on all cores; report(1) … report(count) on this thread. The first
 /// exception, of a job or of report, stops the rest and is thrown again.
 template <class Job, class Report>
-void for_each_view(int count, Job job, Report report) {
+void parallel_for(int count, Job job, Report report) {
   std::mutex mutex;
   std::condition_variable changed;
   std::atomic<int> next{0};
@@ -66,4 +66,4 @@ void for_each_view(int count, Job job, Report report) {
   if (failure) std::rethrow_exception(failure);
 }
 
-}  // namespace gigaray::synthetic
+}  // namespace gigaray

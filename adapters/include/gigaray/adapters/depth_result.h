@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Gigaray authors
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "gigaray/image.h"
+#include "gigaray/light_field.h"
+
+namespace gigaray {
+
+/// The output folder of `gigaray depth`, for what goes on from it: geometry and maps of the views
+/// that have depth. Opening reads gigaray.json alone. Everything throws Error(kBadInput) naming the
+/// file when it is missing, damaged or of another size.
+class DepthResult {
+ public:
+  explicit DepthResult(const std::filesystem::path& folder);
+
+  /// Kind, size, rig, places and cameras of the views as they were when depth was computed; no
+  /// pixels.
+  const LightField& light_field() const { return light_field_; }
+  const std::filesystem::path& folder() const { return folder_; }
+
+  /// (v, u) of the view, in the unit of ViewDepth; NaN: no estimate. Of an unstructured view as
+  /// large as its own camera.
+  FloatMap disparity(int view) const { return map(view, "disparity.pfm"); }
+  FloatMap confidence(int view) const { return map(view, "confidence.pfm"); }
+
+  /// The light field with its pictures. Of unstructured views they lie in the folder; of others
+  /// they are those of `input`, or, when that is empty, of what depth was computed of.
+  LightField with_pictures(const std::filesystem::path& input = {}) const;
+
+ private:
+  FloatMap map(int view, const char* name) const;
+
+  std::filesystem::path folder_, input_;
+  LightField light_field_;
+};
+
+/// Is it the output folder of `gigaray depth`?
+bool is_depth_result(const std::filesystem::path& folder);
+
+}  // namespace gigaray

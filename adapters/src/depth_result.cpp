@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Gigaray authors
+#include "gigaray/adapters/depth_result.h"
+
+#include <algorithm>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <system_error>
+
+#include "described_light_field.h"
+#include "gigaray/adapters/depth_folder.h"
+#include "gigaray/adapters/maps.h"
+#include "gigaray/adapters/reader.h"
+#include "gigaray/adapters/shrunk.h"
+#include "picture_files.h"
+#include "text.h"
+
+namespace gigaray {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+LightField parse(const json& root) {
+  LightField light_field;
+  const json& about = root.at("light_field");
+  light_field.format = about.at("format");
+  light_field.width = about.at("width");
+  light_field.height = about.at("height");
+  if (light_field.width < 1 || light_field.height < 1)
+    throw Error(ErrorCode::kBadInput, "states a size of no pixels");
+  light_field.rig = rig_of(about);
+  for (const json& entry : root.at("views")) {
+    light_field.views.push_back(view_of(entry));
+    if (entry.contains("camera"))
+      light_field.cameras.push_back(camera_of(entry["camera"], light_field.views.back().name));
+  }
+  const std::string kind = about.at("kind");
+  if (kind == to_string(LightFieldKind::kUnstructured)) {
+    light_field.kind = LightFieldKind::kUnstructured;
+    if (light_field.cameras.size() != light_field.views.size())
+      throw Error(ErrorCode::kBadInput, "has not a camera for every view");
+  } else {
+    // Some views of a grid may lie on a line; the result stays what it was computed as.
+    light_field.kind =
+        kind == to_string(LightFieldKind::k3D) ? LightFieldKind::k3D : LightFieldKind::k4D;
+  }
+  return light_field;
+}
+
+/// Pictures of another light field, in the order of this one.
+class SomePictures : public PixelSource {
+ public:
+  SomePictures(LightField all, std::vector<int> which)
+      : all_(std::move(all)), which_(std::move(which)) {}
+  Image<std::uint16_t> read(int view) const override {
+    return read_view(all_, which_.at(std::size_t(view)));
+  }
+  bool has_mask() const override { return all_.pixels->has_mask(); }
+  int bit_depth() const override { return all_.pixels->bit_depth(); }
+
+ private:
+  LightField all_;
+  std::vector<int> which_;
+};
+
+/// Undistorted pictures that lie beside the maps; smaller ones are masked at the right and bottom.
+class PicturesBesideMaps : public PixelSource {
+ public:
+  PicturesBesideMaps(std::vector<fs::path> files, const LightField& light_field)
+      : files_(std::move(files)), width_(light_field.width), height_(light_field.height) {
+    for (const fs::path& file : files_) {
+      const PictureSpec spec = read_picture_spec(file, Orientation::kIgnored);
+      bit_depth_ = std::max(bit_depth_, spec.bit_depth);
+      has_mask_ = has_mask_ || spec.width != width_ || spec.height != height_;
+      if (spec.width > width_ || spec.height > height_)
+        throw Error(ErrorCode::kBadInput, file.string() + ": is larger than gigaray.json states");
+    }
+  }
+  bool has_mask() const override { return has_mask_; }
+  int bit_depth() const override { return bit_depth_; }
+
+  Image<std::uint16_t> read(int view) const override {
+    PictureSpec spec;
+    Image<std::uint16_t> picture =
+        decode_picture(files_.at(std::size_t(view)), Orientation::kIgnored, spec);
+    if (!has_mask_) return picture;
+    Image<std::uint16_t> canvas(width_, height_, 4);
+    for (int v = 0; v < picture.height(); ++v)
+      for (int u = 0; u < picture.width(); ++u) {
+        std::copy_n(&picture(u, v), 3, &canvas(u, v));
+        canvas(u, v, 3) = std::uint16_t((1 << bit_depth_) - 1);
+      }
+    return canvas;
+  }
+
+ private:
+  std::vector<fs::path> files_;
+  int width_, height_, bit_depth_ = 8;
+  bool has_mask_ = false;
+};
+
+json read_json(const fs::path& path) {
+  return json::parse(read_bytes(path), nullptr, false);
+}
+
+}  // namespace
+
+bool is_depth_result(const fs::path& folder) {
+  std::error_code ignored;
+  if (!fs::is_regular_file(folder / "gigaray.json", ignored)) return false;
+  const json root = read_json(folder / "gigaray.json");
+  return root.is_object() && root.value("format", json()) == kDepthFormat;
+}
+
+DepthResult::DepthResult(const fs::path& folder) : folder_(folder) {
+  std::error_code ignored;
+  if (!fs::is_regular_file(folder / "gigaray.json", ignored))
+    throw Error(ErrorCode::kBadInput,
+                folder.string() + ": is no result of `gigaray depth` (it has no gigaray.json)");
+  const fs::path path = folder / "gigaray.json";
+  const json root = read_json(path);
+  if (!root.is_object())
+    throw Error(ErrorCode::kBadInput, path.string() + ": is damaged or no JSON object");
+  if (root.value("format", json()) != kDepthFormat)
+    throw Error(ErrorCode::kBadInput,
+                path.string() + ": describes no result of `gigaray depth`; give its output folder");
+  try {
+    light_field_ = parse(root);
+    input_ = root.at("input").get<std::string>();
+  } catch (const json::exception& problem) {
+    throw Error(ErrorCode::kBadInput, path.string() + ": an entry is missing or of the wrong type (" +
+                                          problem.what() + ")");
+  } catch (const Error& problem) {
+    throw Error(problem.code(), path.string() + ": " + problem.what());
+  }
+  if (light_field_.views.empty())
+    throw Error(ErrorCode::kBadInput, path.string() + ": names no view");
+}
+
+FloatMap DepthResult::map(int view, const char* name) const {
+  const fs::path path = folder_ / light_field_.views[view].name / name;
+  FloatMap map = read_pfm(path);
+  const bool unstructured = light_field_.kind == LightFieldKind::kUnstructured;
+  const int width = unstructured ? light_field_.cameras[view].width : light_field_.width;
+  const int height = unstructured ? light_field_.cameras[view].height : light_field_.height;
+  if (map.width() != width || map.height() != height)
+    throw Error(ErrorCode::kBadInput, path.string() + ": is " +
+                                          size_text(map.width(), map.height()) + ", the view is " +
+                                          size_text(width, height));
+  return map;
+}
+
+LightField DepthResult::with_pictures(const fs::path& input) const {
+  LightField light_field = light_field_;
+  if (light_field.kind == LightFieldKind::kUnstructured) {
+    std::vector<fs::path> files;
+    for (const View& view : light_field.views)
+      files.push_back(folder_ / view.name / "picture.png");
+    light_field.pixels = std::make_shared<PicturesBesideMaps>(std::move(files), light_field);
+    return light_field;
+  }
+  const fs::path place = input.empty() ? input_ : input;
+  const auto bad = [&](const std::string& what) {
+    return Error(ErrorCode::kBadInput, place.string() + ": " + what +
+                                           "; name the light field that " + folder_.string() +
+                                           " was computed of with --input");
+  };
+  std::error_code error;
+  if (!fs::exists(place, error)) throw bad("no such file or folder");
+  LightField all = open_light_field(place);
+  if (all.width > light_field.width)
+    all = shrunk(std::move(all), std::max(light_field.width, light_field.height));
+  if (all.width != light_field.width || all.height != light_field.height)
+    throw bad("its pictures are " + size_text(all.width, all.height) + ", the maps " +
+              size_text(light_field.width, light_field.height));
+  std::map<std::string, int> index;
+  for (int i = 0; i < all.num_views(); ++i) index[all.views[i].name] = i;
+  std::vector<int> which;
+  for (const View& view : light_field.views) {
+    const auto found = index.find(view.name);
+    if (found == index.end()) throw bad("it has no view " + view.name);
+    which.push_back(found->second);
+  }
+  light_field.pixels = std::make_shared<SomePictures>(std::move(all), std::move(which));
+  return light_field;
+}
+
+}  // namespace gigaray

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Gigaray authors
+#include "gigaray/adapters/sparse_file.h"
+
+#include <algorithm>
+#include <mutex>
+
+#include "gigaray/parallel.h"
+#include "gigaray/sparse_coding.h"
+#include "sparse_file_parts.h"
+
+namespace gigaray {
+
+struct SparseFile::Impl {
+  explicit Impl(const std::filesystem::path& path)
+      : file(path),
+        directory(decode_directory(file.directory(), path.string())),
+        tuples(directory.tuples.size()),
+        read_once(std::make_unique<std::once_flag[]>(directory.tuples.size())) {
+    for (std::size_t i = 0; i < tuples.size(); ++i) {
+      tuples[i].least_slope = directory.tuples[i].least_slope;
+      tuples[i].largest_slope = directory.tuples[i].largest_slope;
+    }
+  }
+
+  /// Runs a decoder of a section; what it says of damage gets the name of the file.
+  template <class Decode>
+  auto decoded(const Section& section, Decode decode) const {
+    const std::string bytes = file.read(section);
+    try {
+      return decode(bytes);
+    } catch (const Error& problem) {
+      throw Error(problem.code(), file.path().string() + ": " + problem.what());
+    }
+  }
+
+  void read_tuples(int band) const {
+    std::call_once(read_once[band], [&] {
+      TupleBand found = decoded(directory.tuples[band].section, [&](const std::string& bytes) {
+        return decode_tuples(directory.shape, band, bytes);
+      });
+      // Other threads look at the slopes meanwhile, which the directory told.
+      if (found.least_slope != tuples[band].least_slope ||
+          found.largest_slope != tuples[band].largest_slope)
+        throw Error(ErrorCode::kBadInput,
+                    file.path().string() + ": is damaged: its tuples are not what it says");
+      tuples[band].tuples = std::move(found.tuples);
+    });
+  }
+
+  DrawnRows draw(int view, RowRange rows) const {
+    for (const int band : bands_reaching(directory.shape, tuples, view, rows)) read_tuples(band);
+    return draw_tuples(directory.shape, tuples, view, rows);
+  }
+
+  /// A band of a view.
+  Image<std::uint16_t> picture(int view, int band) const {
+    DrawnRows drawn = draw(view, directory.shape.band(band));
+    fill_undrawn(drawn);
+    return decoded(directory.differences[view][band], [&](const std::string& bytes) {
+      return decode_difference(bytes, drawn.colour, directory.shape.bit_depth);
+    });
+  }
+
+  SectionReader file;
+  SparseDirectory directory;
+  mutable SparseTuples tuples;  ///< filled as they are asked for
+  std::unique_ptr<std::once_flag[]> read_once;
+};
+
+namespace {
+
+class PicturesOfSparseFile : public PixelSource {
+ public:
+  explicit PicturesOfSparseFile(SparseFile file) : file_(std::move(file)) {}
+  Image<std::uint16_t> read(int view) const override {
+    return file_.picture(view, {0, file_.shape().height});
+  }
+  int bit_depth() const override { return file_.shape().bit_depth; }
+
+ private:
+  SparseFile file_;
+};
+
+}  // namespace
+
+SparseFile::SparseFile(const std::filesystem::path& path) : impl_(std::make_shared<Impl>(path)) {}
+
+LightField SparseFile::light_field() const {
+  LightField light_field = impl_->directory.light_field;
+  light_field.pixels = std::make_shared<PicturesOfSparseFile>(*this);
+  if (max_error() > 0)
+    light_field.notes.push_back(impl_->file.path().string() + ": is lossy, values are off by up to " +
+                                std::to_string(max_error()));
+  return light_field;
+}
+
+const SparseShape& SparseFile::shape() const { return impl_->directory.shape; }
+
+int SparseFile::max_error() const { return impl_->directory.max_error; }
+
+Image<std::uint16_t> SparseFile::picture(int view, RowRange rows) const {
+  const SparseShape& shape = this->shape();
+  GIGARAY_CHECK(rows.begin >= 0 && rows.begin < rows.end && rows.end <= shape.height);
+  Image<std::uint16_t> result(shape.width, rows.size(), 3);
+  const int first = rows.begin / shape.band_rows;
+  const int last = (rows.end - 1) / shape.band_rows;
+  parallel_for(
+      last - first + 1,
+      [&](int i) {
+        const Image<std::uint16_t> part = impl_->picture(view, first + i);
+        const RowRange band = shape.band(first + i);
+        const int begin = std::max(band.begin, rows.begin), end = std::min(band.end, rows.end);
+        std::copy_n(part.row(begin - band.begin), std::size_t(end - begin) * shape.width * 3,
+                    result.row(begin - rows.begin));
+      },
+      [](int) {});
+  return result;
+}
+
+FloatMap SparseFile::disparity(int view, RowRange rows) const {
+  const DrawnRows drawn = impl_->draw(view, rows);
+  FloatMap map(shape().width, rows.size());
+  std::transform(drawn.slope.begin(), drawn.slope.end(), map.begin(), [&](std::int32_t slope) {
+    return slope == DrawnRows::kNone ? kNoEstimate : float(shape().disparity(slope));
+  });
+  return map;
+}
+
+const SparseTuples& SparseFile::tuples() const {
+  for (int band = 0; band < shape().num_bands(); ++band) impl_->read_tuples(band);
+  return impl_->tuples;
+}
+
+}  // namespace gigaray
