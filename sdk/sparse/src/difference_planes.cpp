@@ -68,7 +68,7 @@ int DifferencePlanes::context(int channel, int u, int v) const {
   const std::int32_t* miss = planes_[channel].miss.data() + here;
   std::uint32_t activity =
       2 * miss[-1] + 2 * miss[-stride_] + miss[-stride_ - 1] + miss[-stride_ + 1];
-  if (channel > 0) activity += 4 * planes_[channel - 1].miss[here];
+  if (channel > 0) activity += planes_[channel - 1].miss[here];
   if (activity == 0) return 0;
   // Two classes per octave.
   const int octave = std::bit_width(activity) - 1;
