@@ -31,12 +31,7 @@ void write_depth(const std::filesystem::path& folder, const FloatMap& disparity,
   std::filesystem::create_directories(folder, error);
   if (error) throw Error(ErrorCode::kIo, folder.string() + ": " + error.message());
   write_pfm(folder / "disparity.pfm", disparity);
-  DisparityRange range{std::numeric_limits<double>::max(), std::numeric_limits<double>::lowest()};
-  for (const TupleBand& band : file.tuples()) {
-    if (band.tuples.empty()) continue;
-    range.min = std::min(range.min, file.shape().disparity(band.least_slope));
-    range.max = std::max(range.max, file.shape().disparity(band.largest_slope));
-  }
+  const DisparityRange range = file.disparity_range();
   if (range.min < range.max) write_depth_picture(folder / "depth.png", disparity, range);
 }
 

@@ -146,6 +146,9 @@ void run(const Settings& settings, const RunControl& control) {
       top = view;
       break;
     }
+  ordered_json left_out = ordered_json::array();
+  for (const View& view : light_field.left_out)
+    left_out.push_back({{"name", view.name}, {"s", view.s}, {"t", view.t}});
   double kept = settings.min_confidence > 0 ? 0 : 1;
   for (std::size_t i = 0; i < active.size(); ++i) {
     control.progress("write", double(i), double(active.size()));
@@ -181,6 +184,7 @@ void run(const Settings& settings, const RunControl& control) {
                     {"centre", light_field.views[centre].name},
                     {"top_level_view", light_field.views[top].name},
                     {"views", views},
+                    {"left_out", left_out},
                     {"device", result.device()},
                     {"coverage", {{"top_level_view", of_centre.json()}, {"all", all.json()}}},
                     {"min_confidence", settings.min_confidence},

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "gigaray/adapters/shrunk.h"
+#include "view_list.h"
 
 namespace gigaray::cli {
 namespace {
@@ -47,6 +48,8 @@ void parse_lenslet(const std::string& text, OpenOptions& open) {
 LightField InputOptions::open_light_field(const std::filesystem::path& place,
                                           const OpenOptions& options) const {
   LightField light_field = gigaray::open_light_field(place, options);
+  if (!without.empty())
+    light_field = gigaray::without(light_field, parse_views(without, light_field));
   return max_size > 0 ? shrunk(std::move(light_field), max_size) : light_field;
 }
 
@@ -75,6 +78,9 @@ void InputOptions::add_to(CLI::App& app) {
                  "Photographs with cameras: folder of masks, black is left out; NAME.png for the "
                  "picture NAME")
       ->type_name("DIR");
+  app.add_option("--without", without,
+                 "Leave these views out, as if they had not been taken: names, indices, ranges")
+      ->type_name("LIST");
   app.add_option("--max-size", max_size,
                  "Shrink pictures that have more pixels than this on a side (default: as they are)")
       ->check(CLI::Range(16, 1 << 20))

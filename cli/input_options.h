@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
+#include <string>
 
 #include "gigaray/adapters/reader.h"
 
@@ -14,6 +15,7 @@ struct InputOptions {
   std::filesystem::path input;
   OpenOptions open;
   int max_size = 0;           ///< px; larger pictures are shrunk; 0: none
+  std::string without;        ///< list of views; empty: none
   bool find_cameras = false;  ///< of a folder of pictures, with COLMAP, even if they form a row
 
   void add_to(CLI::App& app);

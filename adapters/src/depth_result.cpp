@@ -35,6 +35,8 @@ LightField parse(const json& root) {
     if (entry.contains("camera"))
       light_field.cameras.push_back(camera_of(entry["camera"], light_field.views.back().name));
   }
+  if (const auto left_out = root.find("left_out"); left_out != root.end())
+    for (const json& entry : *left_out) light_field.left_out.push_back(view_of(entry));
   const std::string kind = about.at("kind");
   if (kind == to_string(LightFieldKind::kUnstructured)) {
     light_field.kind = LightFieldKind::kUnstructured;
@@ -47,22 +49,6 @@ LightField parse(const json& root) {
   }
   return light_field;
 }
-
-/// Pictures of another light field, in the order of this one.
-class SomePictures : public PixelSource {
- public:
-  SomePictures(LightField all, std::vector<int> which)
-      : all_(std::move(all)), which_(std::move(which)) {}
-  Image<std::uint16_t> read(int view) const override {
-    return read_view(all_, which_.at(std::size_t(view)));
-  }
-  bool has_mask() const override { return all_.pixels->has_mask(); }
-  int bit_depth() const override { return all_.pixels->bit_depth(); }
-
- private:
-  LightField all_;
-  std::vector<int> which_;
-};
 
 /// Undistorted pictures that lie beside the maps; smaller ones are masked at the right and bottom.
 class PicturesBesideMaps : public PixelSource {
@@ -106,11 +92,18 @@ json read_json(const fs::path& path) {
 
 }  // namespace
 
-bool is_depth_result(const fs::path& folder) {
-  std::error_code ignored;
-  if (!fs::is_regular_file(folder / "gigaray.json", ignored)) return false;
-  const json root = read_json(folder / "gigaray.json");
-  return root.is_object() && root.value("format", json()) == kDepthFormat;
+Camera read_camera(const fs::path& path) {
+  const json root = read_json(path);
+  if (!root.is_object())
+    throw Error(ErrorCode::kBadInput, path.string() + ": is damaged or no JSON object");
+  try {
+    return camera_of(root.contains("camera") ? root["camera"] : root, "camera");
+  } catch (const json::exception& problem) {
+    throw Error(ErrorCode::kBadInput,
+                path.string() + ": holds no camera (" + problem.what() + ")");
+  } catch (const Error& problem) {
+    throw Error(problem.code(), path.string() + ": " + problem.what());
+  }
 }
 
 DepthResult::DepthResult(const fs::path& folder) : folder_(folder) {
@@ -128,6 +121,8 @@ DepthResult::DepthResult(const fs::path& folder) : folder_(folder) {
   try {
     light_field_ = parse(root);
     input_ = root.at("input").get<std::string>();
+    const json& range = root.at("options").at("disparity_range");
+    searched_ = {range.at(0), range.at(1)};
   } catch (const json::exception& problem) {
     throw Error(ErrorCode::kBadInput, path.string() + ": an entry is missing or of the wrong type (" +
                                           problem.what() + ")");
@@ -182,7 +177,7 @@ LightField DepthResult::with_pictures(const fs::path& input) const {
     if (found == index.end()) throw bad("it has no view " + view.name);
     which.push_back(found->second);
   }
-  light_field.pixels = std::make_shared<SomePictures>(std::move(all), std::move(which));
+  light_field.pixels = pictures_of(std::move(all), std::move(which));
   return light_field;
 }
 

@@ -3,6 +3,7 @@
 #include "gigaray/adapters/sparse_file.h"
 
 #include <algorithm>
+#include <limits>
 #include <mutex>
 
 #include "gigaray/parallel.h"
@@ -96,6 +97,17 @@ LightField SparseFile::light_field() const {
 }
 
 const SparseShape& SparseFile::shape() const { return impl_->directory.shape; }
+
+DisparityRange SparseFile::disparity_range() const {
+  DisparityRange range{std::numeric_limits<double>::max(), std::numeric_limits<double>::lowest()};
+  for (const TupleBand& band : impl_->tuples) {
+    if (band.least_slope > band.largest_slope) continue;
+    range.min = std::min(range.min, shape().disparity(band.least_slope));
+    range.max = std::max(range.max, shape().disparity(band.largest_slope));
+  }
+  if (range.min > range.max) return {0, 1};
+  return range;
+}
 
 int SparseFile::max_error() const { return impl_->directory.max_error; }
 

@@ -25,6 +25,21 @@ class PicturesInMemory : public PixelSource {
   int bit_depth_;
 };
 
+class PicturesOfLightField : public PixelSource {
+ public:
+  PicturesOfLightField(LightField light_field, std::vector<int> which)
+      : light_field_(std::move(light_field)), which_(std::move(which)) {}
+  Image<std::uint16_t> read(int view_idx) const override {
+    return read_view(light_field_, which_.at(std::size_t(view_idx)));
+  }
+  bool has_mask() const override { return light_field_.pixels->has_mask(); }
+  int bit_depth() const override { return light_field_.pixels->bit_depth(); }
+
+ private:
+  LightField light_field_;
+  std::vector<int> which_;
+};
+
 [[noreturn]] void bad(const std::string& message) { throw Error(ErrorCode::kBadInput, message); }
 
 double distance(const View& a, const View& b) { return std::hypot(a.s - b.s, a.t - b.t); }
@@ -80,6 +95,33 @@ Image<std::uint16_t> read_view(const LightField& light_field, int view_idx) {
         size(picture.width(), picture.height()) + ", the others are " +
         size(light_field.width, light_field.height));
   return picture;
+}
+
+std::shared_ptr<const PixelSource> pictures_of(LightField light_field, std::vector<int> which) {
+  return std::make_shared<PicturesOfLightField>(std::move(light_field), std::move(which));
+}
+
+LightField without(LightField light_field, const std::vector<int>& views) {
+  if (views.empty()) return light_field;
+  LightField rest = light_field;
+  rest.views.clear();
+  rest.cameras.clear();
+  std::vector<int> kept;
+  for (int i = 0; i < light_field.num_views(); ++i) {
+    if (std::find(views.begin(), views.end(), i) != views.end()) {
+      rest.left_out.push_back(light_field.views[i]);
+      continue;
+    }
+    kept.push_back(i);
+    rest.views.push_back(light_field.views[i]);
+    if (!light_field.cameras.empty()) rest.cameras.push_back(light_field.cameras[i]);
+  }
+  if (kept.size() < 2)
+    throw Error(ErrorCode::kInvalidArgument,
+                "--without: two views or more must be left of " +
+                    std::to_string(light_field.num_views()));
+  rest.pixels = pictures_of(std::move(light_field), std::move(kept));
+  return rest;
 }
 
 std::optional<Mask> take_mask(Image<std::uint16_t>& picture) {

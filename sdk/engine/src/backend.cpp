@@ -3,7 +3,8 @@
 #include "gigaray/backend.h"
 
 #include <bit>
-#include <cmath>
+
+#include "gigaray/srgb.h"
 
 namespace gigaray {
 
@@ -28,9 +29,7 @@ std::vector<float> colour_table(int bit_depth, bool linear_rgb) {
   std::vector<float> table(std::size_t(1) << bit_depth);
   for (std::size_t i = 0; i < table.size(); ++i) {
     const double x = double(i) / double(table.size() - 1);
-    // IEC 61966-2-1, the sRGB transfer function.
-    const double linear = x <= 0.04045 ? x / 12.92 : std::pow((x + 0.055) / 1.055, 2.4);
-    table[i] = float(linear_rgb ? linear : x);
+    table[i] = float(linear_rgb ? linear_from_srgb(x) : x);
   }
   return table;
 }

@@ -46,6 +46,7 @@ constexpr std::array<Order, 4> kOrders{{{"right,down", "left,up", 1, 0, 0, 1},
 
 LightField turned(LightField light_field, const Order& order, int sign) {
   for (View& view : light_field.views) view = order.apply(view, sign);
+  for (View& view : light_field.left_out) view = order.apply(view, sign);
   light_field.kind = kind_from_positions(light_field.views);
   return light_field;
 }

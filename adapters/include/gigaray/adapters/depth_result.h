@@ -22,6 +22,11 @@ class DepthResult {
   const LightField& light_field() const { return light_field_; }
   const std::filesystem::path& folder() const { return folder_; }
 
+  /// What depth was computed of, as it was named then.
+  const std::filesystem::path& input() const { return input_; }
+  /// Range of disparities (inverse depths) that was searched.
+  DisparityRange searched() const { return searched_; }
+
   /// (v, u) of the view, in the unit of ViewDepth; NaN: no estimate. Of an unstructured view as
   /// large as its own camera.
   FloatMap disparity(int view) const { return map(view, "disparity.pfm"); }
@@ -36,9 +41,11 @@ class DepthResult {
 
   std::filesystem::path folder_, input_;
   LightField light_field_;
+  DisparityRange searched_;
 };
 
-/// Is it the output folder of `gigaray depth`?
-bool is_depth_result(const std::filesystem::path& folder);
+/// A camera of a JSON file: the object "camera" in it, or the whole file, as in gigaray.json of
+/// `gigaray depth`. Throws Error(kBadInput) naming the file.
+Camera read_camera(const std::filesystem::path& path);
 
 }  // namespace gigaray

@@ -51,6 +51,7 @@ class SparseFile {
   LightField light_field() const;
   const SparseShape& shape() const;
   int max_error() const;
+  DisparityRange disparity_range() const;  ///< of the tuples; 0 … 1 when there is none
 
   /// Rows of a view as RGB, (v − rows.begin, u, c).
   Image<std::uint16_t> picture(int view, RowRange rows) const;

@@ -96,6 +96,13 @@ void check(const LightField& light_field);
 /// Error(kBadInput) naming the view when its size is not that of the light field.
 Image<std::uint16_t> read_view(const LightField& light_field, int view_idx);
 
+/// Pictures of another light field: picture i is its view which[i].
+std::shared_ptr<const PixelSource> pictures_of(LightField light_field, std::vector<int> which);
+
+/// The light field without some of its views, which become left_out; the others stay where they
+/// are. Throws Error(kInvalidArgument) when fewer than two are left.
+LightField without(LightField light_field, const std::vector<int>& views);
+
 /// Takes the fourth channel away from a picture that has one: 0 where it shows nothing of the
 /// scene.
 std::optional<Mask> take_mask(Image<std::uint16_t>& picture);

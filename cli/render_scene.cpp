@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Gigaray authors
+#include "render_scene.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <memory>
+
+#include "gigaray/adapters/depth_result.h"
+#include "gigaray/adapters/reader.h"
+#include "gigaray/adapters/sparse_file.h"
+#include "view_list.h"
+
+namespace gigaray::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kMostKept = 24;
+
+FloatMap sure(FloatMap disparity, const FloatMap& confidence, double least) {
+  for (std::size_t i = 0; i < disparity.size(); ++i)
+    if (!(confidence.data()[i] >= least)) disparity.data()[i] = kNoEstimate;
+  return disparity;
+}
+
+std::optional<std::vector<double>> parse_numbers(const std::string& text, std::size_t count) {
+  std::vector<double> numbers;
+  const char* begin = text.data();
+  const char* const end = begin + text.size();
+  while (begin < end) {
+    double number = 0;
+    const auto [next, error] = std::from_chars(begin, end, number);
+    if (error != std::errc() || !std::isfinite(number)) return std::nullopt;
+    numbers.push_back(number);
+    if (next == end) break;
+    if (*next != ',') return std::nullopt;
+    begin = next + 1;
+  }
+  if (numbers.size() != count) return std::nullopt;
+  return numbers;
+}
+
+}  // namespace
+
+RenderScene::RenderScene(const fs::path& result, const fs::path& input, double min_confidence)
+    : result_(result), input_(input) {
+  std::error_code ignored;
+  DisparityRange range;
+  if (fs::is_directory(result, ignored)) {
+    const auto depth = std::make_shared<DepthResult>(result);
+    light_field_ = depth->with_pictures(input);
+    range = depth->searched();
+    if (input.empty()) input_ = depth->input();
+    disparity_ = [depth, min_confidence](int view) {
+      FloatMap map = depth->disparity(view);
+      return min_confidence > 0 ? sure(std::move(map), depth->confidence(view), min_confidence)
+                                : map;
+    };
+  } else {
+    if (min_confidence > 0)
+      throw Error(ErrorCode::kInvalidArgument,
+                  "--min-confidence: a .grl file holds no confidence; render the folder of `depth`");
+    const SparseFile file(result);
+    light_field_ = file.light_field();
+    range = file.disparity_range();
+    disparity_ = [file](int view) { return file.disparity(view, {0, file.shape().height}); };
+  }
+  rig_.emplace(light_field_, range.min);
+}
+
+Image<std::uint16_t> own_picture(const LightField& light_field, int view, const Camera& camera) {
+  const Image<std::uint16_t> picture = read_view(light_field, view);
+  if (picture.width() == camera.width && picture.height() == camera.height &&
+      picture.channels() == 3)
+    return picture;
+  Image<std::uint16_t> rgb(camera.width, camera.height, 3);
+  for (int v = 0; v < rgb.height(); ++v)
+    for (int u = 0; u < rgb.width(); ++u) std::copy_n(&picture(u, v), 3, &rgb(u, v));
+  return rgb;
+}
+
+const SourceView& RenderScene::source(int view) {
+  const auto found =
+      std::find_if(kept_.begin(), kept_.end(), [&](const Kept& kept) { return kept.view == view; });
+  if (found != kept_.end()) {
+    kept_.splice(kept_.begin(), kept_, found);
+    return kept_.front().source;
+  }
+  const Camera& camera = rig_->camera(view);
+  kept_.push_front({view,
+                    {camera, own_picture(light_field_, view, camera),
+                     rig_->inverse_depth(disparity_(view))}});
+  return kept_.front().source;
+}
+
+NovelView RenderScene::render(const Camera& camera, int most_sources, int exclude,
+                              const NovelViewOptions& options, const RunControl& control) {
+  std::vector<SourceView> sources;
+  for (const int view : nearest_cameras(rig_->cameras(), camera, most_sources, exclude)) {
+    control.throw_if_cancelled();
+    sources.push_back(source(view));
+  }
+  if (kept_.size() > kMostKept) kept_.resize(kMostKept);
+  return render_view(camera, sources, light_field_.pixels->bit_depth(), options, control);
+}
+
+int RenderScene::find(const std::string& name) const {
+  const auto found = std::find_if(light_field_.views.begin(), light_field_.views.end(),
+                                  [&](const View& view) { return view.name == name; });
+  return found == light_field_.views.end() ? -1 : int(found - light_field_.views.begin());
+}
+
+RealView RenderScene::left_out(const std::string& name) const {
+  const auto place = std::find_if(light_field_.left_out.begin(), light_field_.left_out.end(),
+                                  [&](const View& view) { return view.name == name; });
+  if (place == light_field_.left_out.end())
+    throw Error(ErrorCode::kInvalidArgument, fmt::format("view {}: {} has no view of this name",
+                                                         name, result_.string()));
+  const LightField all = open_light_field(input_);
+  const auto view = std::find_if(all.views.begin(), all.views.end(),
+                                 [&](const View& other) { return other.name == name; });
+  if (view == all.views.end())
+    throw Error(ErrorCode::kBadInput,
+                fmt::format("{}: it has no view {} any more", input_.string(), name));
+  const int index = int(view - all.views.begin());
+  const Camera camera = all.kind == LightFieldKind::kUnstructured
+                            ? all.cameras[index]
+                            : rig_->camera_at(place->s, place->t);
+  return {camera, own_picture(all, index, camera)};
+}
+
+Camera parse_pose(const std::string& text, const RenderScene& scene) {
+  const LightField& light_field = scene.light_field();
+  if (text.ends_with(".json")) return read_camera(text);
+  const auto plus = scene.find(text) < 0 ? text.find('+') : std::string::npos;
+  const std::string base = text.substr(0, plus);
+  const auto bad = [&](const std::string& what) {
+    return Error(ErrorCode::kInvalidArgument, "pose '" + text + "': " + what);
+  };
+  Camera camera;
+  if (const auto place = scene.find(base) < 0 ? parse_numbers(base, 2) : std::nullopt) {
+    if (light_field.kind == LightFieldKind::kUnstructured)
+      throw bad("S,T is a place of a 3D or 4D light field; name a view, as in " +
+                light_field.views.front().name + "+0.1,0,0");
+    camera = scene.rig().camera_at((*place)[0], (*place)[1]);
+  } else {
+    camera = scene.rig().camera(parse_view(base, light_field));
+  }
+  if (plus == std::string::npos) return camera;
+  const auto way = parse_numbers(text.substr(plus + 1), 3);
+  if (!way) throw bad("after + three numbers are needed: right,down,ahead in scene units");
+  camera.translation -= Eigen::Vector3d((*way)[0], (*way)[1], (*way)[2]);
+  return camera;
+}
+
+}  // namespace gigaray::cli
