@@ -32,6 +32,7 @@ struct Settings {
   std::vector<int> at;  ///< U V
   std::string view = "centre";
   std::filesystem::path output;
+  bool decided = false;
   bool json = false;
 };
 
@@ -48,6 +49,7 @@ struct Finding {
   double mean = kNoEstimate;      ///< Of the tested hypotheses.
   int seen_by = 0;                ///< Views that see the point of the winner.
   float min_confidence = 0;       ///< `depth` leaves what has no more to coarser levels.
+  std::optional<Decision> decision;  ///< of a whole run, if asked for
 };
 
 void read_curve(Finding& finding) {
@@ -111,6 +113,33 @@ void print_text(const Finding& finding, const LightField& light_field) {
   line("seen by", fmt::format("{} of {} views", finding.seen_by, light_field.num_views()));
 }
 
+void print_decision(const Finding& finding, const LightField& light_field) {
+  if (!finding.decision) return;
+  const Decision& decision = *finding.decision;
+  if (decision.level < 0) {
+    fmt::print("{:<12}by no level\n", "decided");
+    return;
+  }
+  const std::string where =
+      decision.view < 0 ? "filled between the estimates around"
+                        : fmt::format("view {}, u {}, v {}", light_field.views[decision.view].name,
+                                      decision.u, decision.v);
+  fmt::print("{:<12}{:.4f} on level {}: {}\n", "decided", decision.disparity, decision.level, where);
+  fmt::print("{:<12}{:.4g} … {:.4g}\n", "bounds", decision.bounds.min, decision.bounds.max);
+}
+
+ordered_json decision_json(const Finding& finding, const LightField& light_field) {
+  if (!finding.decision) return nullptr;
+  const Decision& decision = *finding.decision;
+  return {{"level", decision.level},
+          {"view", decision.view < 0 ? ordered_json(nullptr)
+                                     : ordered_json(light_field.views[decision.view].name)},
+          {"u", decision.u},
+          {"v", decision.v},
+          {"disparity", decision.disparity},
+          {"bounds", {decision.bounds.min, decision.bounds.max}}};
+}
+
 ordered_json to_json(const Finding& finding, const LightField& light_field) {
   const auto peak = [](const std::optional<Peak>& p) {
     return p ? ordered_json{{"disparity", p->disparity}, {"score", p->score}}
@@ -147,6 +176,7 @@ ordered_json to_json(const Finding& finding, const LightField& light_field) {
       {"mean_score", finding.mean},
       {"seen_by", finding.seen_by},
       {"num_views", light_field.num_views()},
+      {"decision", decision_json(finding, light_field)},
       {"scores", scores},
       {"samples", samples}};
 }
@@ -214,6 +244,11 @@ Image<std::uint16_t> scores_picture(const Finding& finding) {
   std::vector<ScoreMark> marks;
   if (finding.best) marks.push_back({"winner", finding.curve.disparity});
   if (finding.runner_up) marks.push_back({"runner-up", finding.runner_up->disparity});
+  if (finding.decision && finding.decision->level >= 0) {
+    marks.push_back({"decided", finding.decision->disparity});
+    marks.push_back({"least", finding.decision->bounds.min});
+    marks.push_back({"most", finding.decision->bounds.max});
+  }
   const HypothesisRange& range = finding.curve.hypotheses;
   return draw_scores(finding.curve.scores, {range.min, range.max}, finding.mean, marks);
 }
@@ -235,6 +270,9 @@ void run(const Settings& settings, const RunControl& control) {
   finding.curve = probe(light_field, options, settings.run.backend(), finding.view, finding.u,
                         finding.v, control);
   read_curve(finding);
+  if (settings.decided)
+    finding.decision = reconstruct(light_field, options, settings.run.backend(), control)
+                           .decision(finding.view, finding.u, finding.v);
 
   const std::string json =
       to_json(finding, light_field).dump(2, ' ', false, ordered_json::error_handler_t::replace);
@@ -248,10 +286,12 @@ void run(const Settings& settings, const RunControl& control) {
     control.throw_if_cancelled();
     folder->commit();
   }
-  if (settings.json)
+  if (settings.json) {
     fmt::print("{}\n", json);
-  else
-    print_text(finding, light_field);
+    return;
+  }
+  print_text(finding, light_field);
+  print_decision(finding, light_field);
 }
 
 }  // namespace
@@ -274,6 +314,9 @@ Run probe_command(CLI::App& app) {
          "Folder for pictures: the epipolar-plane image, the colours that the views see, the "
          "score curve; replaced if it is an older result")
       ->type_name("DIR");
+  app.add_flag("--decided", settings->decided,
+               "Compute the depth of all views too, as `depth` does, and tell which level and which "
+               "view decided this pixel, and what was searched there");
   app.add_flag("--json", settings->json, "Print JSON");
   return [settings](const RunControl& control) { run(*settings, control); };
 }

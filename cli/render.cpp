@@ -183,8 +183,7 @@ void leave_one_out(const Settings& settings, RenderScene& scene, const RunContro
     real = scene.left_out(settings.leave_out);
   } else {
     exclude = parse_view(settings.leave_out, scene.light_field());
-    real = {scene.rig().camera(exclude), own_picture(scene.light_field(), exclude,
-                                                     scene.rig().camera(exclude))};
+    real = real_view(scene.light_field(), exclude, scene.rig().camera(exclude));
     control.message("its picture had a part in the depth of the others; `depth --without` keeps it out");
   }
   const int bit_depth = scene.light_field().pixels->bit_depth();
@@ -201,17 +200,20 @@ void leave_one_out(const Settings& settings, RenderScene& scene, const RunContro
   output.write("equal_weights.png", alike.picture);
   output.write("nearest_two.png", blend);
   output.write("inverse_depth.pfm", view.inverse_depth);
+  const auto quality = [&](const Image<std::uint16_t>& picture) {
+    return picture_quality(picture, real.picture, bit_depth, real.shown);
+  };
   struct Score {
     const char* name;
     const char* text;
     PictureQuality quality;
   };
   const Score scores[] = {
-      {"rendered", "rendered", picture_quality(view.picture, real.picture, bit_depth)},
+      {"rendered", "rendered", quality(view.picture)},
       {"equal_weights", "without view-dependent weights",
-       picture_quality(alike.picture, real.picture, bit_depth)},
+       quality(alike.picture)},
       {"nearest_two", "the two nearest views blended",
-       picture_quality(blend, real.picture, bit_depth)}};
+       quality(blend)}};
   ordered_json qualities = ordered_json::object();
   for (const Score& score : scores)
     qualities[score.name] = {{"psnr", score.quality.psnr}, {"ssim", score.quality.ssim}};

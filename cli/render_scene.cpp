@@ -10,7 +10,6 @@
 #include <memory>
 
 #include "gigaray/adapters/depth_result.h"
-#include "gigaray/adapters/reader.h"
 #include "gigaray/adapters/sparse_file.h"
 #include "view_list.h"
 
@@ -47,14 +46,14 @@ std::optional<std::vector<double>> parse_numbers(const std::string& text, std::s
 }  // namespace
 
 RenderScene::RenderScene(const fs::path& result, const fs::path& input, double min_confidence)
-    : result_(result), input_(input) {
+    : result_(result) {
   std::error_code ignored;
   DisparityRange range;
   if (fs::is_directory(result, ignored)) {
     const auto depth = std::make_shared<DepthResult>(result);
     light_field_ = depth->with_pictures(input);
     range = depth->searched();
-    if (input.empty()) input_ = depth->input();
+    open_input_ = [depth, input] { return depth->open_input(input); };
     disparity_ = [depth, min_confidence](int view) {
       FloatMap map = depth->disparity(view);
       return min_confidence > 0 ? sure(std::move(map), depth->confidence(view), min_confidence)
@@ -72,15 +71,16 @@ RenderScene::RenderScene(const fs::path& result, const fs::path& input, double m
   rig_.emplace(light_field_, range.min);
 }
 
-Image<std::uint16_t> own_picture(const LightField& light_field, int view, const Camera& camera) {
-  const Image<std::uint16_t> picture = read_view(light_field, view);
-  if (picture.width() == camera.width && picture.height() == camera.height &&
-      picture.channels() == 3)
-    return picture;
-  Image<std::uint16_t> rgb(camera.width, camera.height, 3);
-  for (int v = 0; v < rgb.height(); ++v)
-    for (int u = 0; u < rgb.width(); ++u) std::copy_n(&picture(u, v), 3, &rgb(u, v));
-  return rgb;
+RealView real_view(const LightField& light_field, int view, const Camera& camera) {
+  Image<std::uint16_t> picture = read_view(light_field, view);
+  const std::optional<Mask> shown = take_mask(picture);
+  RealView real{camera, Image<std::uint16_t>(camera.width, camera.height, 3), {}};
+  if (shown) real.shown = Mask(camera.width, camera.height);
+  for (int v = 0; v < camera.height; ++v) {
+    std::copy_n(picture.row(v), 3 * camera.width, real.picture.row(v));
+    if (shown) std::copy_n(shown->row(v), camera.width, real.shown.row(v));
+  }
+  return real;
 }
 
 const SourceView& RenderScene::source(int view) {
@@ -92,7 +92,7 @@ const SourceView& RenderScene::source(int view) {
   }
   const Camera& camera = rig_->camera(view);
   kept_.push_front({view,
-                    {camera, own_picture(light_field_, view, camera),
+                    {camera, real_view(light_field_, view, camera).picture,
                      rig_->inverse_depth(disparity_(view))}});
   return kept_.front().source;
 }
@@ -120,17 +120,17 @@ RealView RenderScene::left_out(const std::string& name) const {
   if (place == light_field_.left_out.end())
     throw Error(ErrorCode::kInvalidArgument, fmt::format("view {}: {} has no view of this name",
                                                          name, result_.string()));
-  const LightField all = open_light_field(input_);
+  const LightField all = open_input_();
   const auto view = std::find_if(all.views.begin(), all.views.end(),
                                  [&](const View& other) { return other.name == name; });
   if (view == all.views.end())
     throw Error(ErrorCode::kBadInput,
-                fmt::format("{}: it has no view {} any more", input_.string(), name));
+                fmt::format("{}: its input has no view {} any more", result_.string(), name));
   const int index = int(view - all.views.begin());
   const Camera camera = all.kind == LightFieldKind::kUnstructured
                             ? all.cameras[index]
                             : rig_->camera_at(place->s, place->t);
-  return {camera, own_picture(all, index, camera)};
+  return real_view(all, index, camera);
 }
 
 Camera parse_pose(const std::string& text, const RenderScene& scene) {

@@ -19,6 +19,7 @@ namespace gigaray::cli {
 struct RealView {
   Camera camera;
   Image<std::uint16_t> picture;
+  Mask shown;  ///< 0 where the picture shows nothing of the scene; empty: it does everywhere
 };
 
 /// Pictures, depth and cameras that novel views are made of: an output folder of `gigaray depth` or
@@ -47,9 +48,10 @@ class RenderScene {
   RealView left_out(const std::string& name) const;
 
  private:
-  std::filesystem::path result_, input_;
+  std::filesystem::path result_;
   LightField light_field_;
   std::function<FloatMap(int)> disparity_;
+  std::function<LightField()> open_input_;
   std::optional<RigCameras> rig_;
   struct Kept {
     int view;
@@ -58,8 +60,8 @@ class RenderScene {
   std::list<Kept> kept_;  ///< the last one used first
 };
 
-/// A picture as large as its camera, three channels.
-Image<std::uint16_t> own_picture(const LightField& light_field, int view, const Camera& camera);
+/// A view with its picture as large as its camera.
+RealView real_view(const LightField& light_field, int view, const Camera& camera);
 
 /// The camera that a text means:
 ///   centre, a name or an index          of a view

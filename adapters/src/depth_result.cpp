@@ -146,15 +146,7 @@ FloatMap DepthResult::map(int view, const char* name) const {
   return map;
 }
 
-LightField DepthResult::with_pictures(const fs::path& input) const {
-  LightField light_field = light_field_;
-  if (light_field.kind == LightFieldKind::kUnstructured) {
-    std::vector<fs::path> files;
-    for (const View& view : light_field.views)
-      files.push_back(folder_ / view.name / "picture.png");
-    light_field.pixels = std::make_shared<PicturesBesideMaps>(std::move(files), light_field);
-    return light_field;
-  }
+LightField DepthResult::open_input(const fs::path& input) const {
   const fs::path place = input.empty() ? input_ : input;
   const auto bad = [&](const std::string& what) {
     return Error(ErrorCode::kBadInput, place.string() + ": " + what +
@@ -164,17 +156,33 @@ LightField DepthResult::with_pictures(const fs::path& input) const {
   std::error_code error;
   if (!fs::exists(place, error)) throw bad("no such file or folder");
   LightField all = open_light_field(place);
-  if (all.width > light_field.width)
-    all = shrunk(std::move(all), std::max(light_field.width, light_field.height));
-  if (all.width != light_field.width || all.height != light_field.height)
+  if (all.width > light_field_.width)
+    all = shrunk(std::move(all), std::max(light_field_.width, light_field_.height));
+  if (all.width != light_field_.width || all.height != light_field_.height)
     throw bad("its pictures are " + size_text(all.width, all.height) + ", the maps " +
-              size_text(light_field.width, light_field.height));
+              size_text(light_field_.width, light_field_.height));
+  return all;
+}
+
+LightField DepthResult::with_pictures(const fs::path& input) const {
+  LightField light_field = light_field_;
+  if (light_field.kind == LightFieldKind::kUnstructured) {
+    std::vector<fs::path> files;
+    for (const View& view : light_field.views)
+      files.push_back(folder_ / view.name / "picture.png");
+    light_field.pixels = std::make_shared<PicturesBesideMaps>(std::move(files), light_field);
+    return light_field;
+  }
+  LightField all = open_input(input);
   std::map<std::string, int> index;
   for (int i = 0; i < all.num_views(); ++i) index[all.views[i].name] = i;
   std::vector<int> which;
   for (const View& view : light_field.views) {
     const auto found = index.find(view.name);
-    if (found == index.end()) throw bad("it has no view " + view.name);
+    if (found == index.end())
+      throw Error(ErrorCode::kBadInput, (input.empty() ? input_ : input).string() +
+                                            ": it has no view " + view.name + ", of which " +
+                                            folder_.string() + " has depth");
     which.push_back(found->second);
   }
   light_field.pixels = pictures_of(std::move(all), std::move(which));

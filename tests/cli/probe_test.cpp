@@ -94,6 +94,18 @@ TEST_F(ProbeCommand, WritesItsPicturesAndReplacesThem) {
   }
 }
 
+TEST_F(ProbeCommand, TellsWhichLevelAndViewDecided) {
+  EXPECT_TRUE(probe("--at 30 20").at("decision").is_null());
+  const json found = probe("--at 30 20 --decided");
+  const json& decision = found.at("decision");
+  EXPECT_GE(decision.at("level"), 0);
+  EXPECT_TRUE(std::string(decision.at("view")).starts_with("view_"));
+  EXPECT_LE(decision.at("bounds")[0], decision.at("bounds")[1]);
+  const Result text = run("probe made --at 30 20 --decided");
+  EXPECT_NE(text.out.find("decided"), std::string::npos) << text.out;
+  EXPECT_NE(text.out.find("bounds"), std::string::npos) << text.out;
+}
+
 TEST_F(ProbeCommand, APixelThatNoViewCanDecideHasNoDisparity) {
   // With the paper's rule a fifth of the views must see the point, and none but two can.
   const Result result =

@@ -3,6 +3,7 @@
 #include "gigaray/picture_quality.h"
 
 #include <cmath>
+#include <opencv2/imgproc.hpp>
 #include <opencv2/quality.hpp>
 
 namespace gigaray {
@@ -20,20 +21,30 @@ cv::Mat scaled_to_255(const Image<std::uint16_t>& picture, int bit_depth) {
 }  // namespace
 
 PictureQuality picture_quality(const Image<std::uint16_t>& picture,
-                               const Image<std::uint16_t>& truth, int bit_depth) {
+                               const Image<std::uint16_t>& truth, int bit_depth,
+                               const Mask& shown) {
   GIGARAY_CHECK(picture.width() == truth.width() && picture.height() == truth.height() &&
                 picture.channels() == 3 && truth.channels() == 3);
-  double squares = 0;
+  cv::Mat counts(picture.height(), picture.width(), CV_8U, cv::Scalar(255));
+  for (std::size_t i = 0; i < shown.size(); ++i) counts.data[i] = shown.data()[i] ? 255 : 0;
+  double squares = 0, number = 0;
   for (std::size_t i = 0; i < picture.size(); ++i) {
+    if (!counts.data[i / 3]) continue;
     const double difference = double(picture.data()[i]) - truth.data()[i];
     squares += difference * difference;
+    ++number;
   }
   const double most = (1 << bit_depth) - 1;
   PictureQuality quality;
-  quality.psnr = 10 * std::log10(most * most * double(picture.size()) / squares);
-  const cv::Scalar similarity = cv::quality::QualitySSIM::compute(
-      scaled_to_255(truth, bit_depth), scaled_to_255(picture, bit_depth), cv::noArray());
-  quality.ssim = (similarity[0] + similarity[1] + similarity[2]) / 3;
+  quality.psnr = 10 * std::log10(most * most * number / squares);
+  cv::Mat similarity;
+  cv::quality::QualitySSIM::compute(scaled_to_255(truth, bit_depth),
+                                    scaled_to_255(picture, bit_depth), similarity);
+  constexpr int kWindow = 11;
+  cv::Mat whole_windows;
+  cv::erode(counts, whole_windows, cv::Mat::ones(kWindow, kWindow, CV_8U));
+  const cv::Scalar mean = cv::mean(similarity, whole_windows);
+  quality.ssim = (mean[0] + mean[1] + mean[2]) / 3;
   return quality;
 }
 

@@ -11,7 +11,7 @@
 #include "gigaray/scene_estimates.h"
 #include "gigaray/smoothing.h"
 #include "inverse_depths.h"
-#include "pipeline.h"
+#include "reconstruction_impl.h"
 #include "stage_timer.h"
 
 namespace gigaray {
@@ -143,30 +143,6 @@ std::unique_ptr<Backend> make_backend(const Prepared& run, const BackendChoice& 
 
 }  // namespace
 
-struct Reconstruction::Impl {
-  DepthOptions options;
-  HypothesisRange hypotheses;   ///< as the engine steps through them
-  std::vector<Camera> cameras;  ///< unstructured: with the range of each
-  RowStore mask;                ///< Pipeline::mask()
-  MemoryPlan plan;
-  std::unique_ptr<Backend> backend;
-  std::string device;
-  std::vector<int> views;   ///< ascending
-  std::vector<int> active;  ///< as processed
-  std::vector<LevelState> levels;
-  TupleStore tuples{""};
-  std::map<std::string, double> seconds;
-
-  /// What a hypothesis of the engine is to the caller.
-  float disparity_of(int view, float hypothesis) const {
-    if (cameras.empty()) return hypothesis;
-    const InverseDepthRange& range = *cameras[view].inverse_depth;
-    return float(range.min + hypothesis * (range.max - range.min));
-  }
-  /// Takes estimates away where the view shows nothing of the scene.
-  void leave_out_masked(int view, ViewDepth& depth) const;
-};
-
 void Reconstruction::Impl::leave_out_masked(int view, ViewDepth& depth) const {
   if (mask.empty()) return;
   std::vector<std::uint8_t> shown(depth.disparity.width());
@@ -276,6 +252,7 @@ Reconstruction reconstruct(const LightField& light_field, const DepthOptions& op
     impl->options = run.options;
     impl->hypotheses = run.hypotheses;
     impl->cameras = seen.cameras;
+    impl->sampler = make_sampler(seen);
     impl->plan = plan_memory(seen, run.options, run.hypotheses);
     impl->backend = make_backend(run, backend);
   }

@@ -22,8 +22,6 @@ class DepthResult {
   const LightField& light_field() const { return light_field_; }
   const std::filesystem::path& folder() const { return folder_; }
 
-  /// What depth was computed of, as it was named then.
-  const std::filesystem::path& input() const { return input_; }
   /// Range of disparities (inverse depths) that was searched.
   DisparityRange searched() const { return searched_; }
 
@@ -35,6 +33,10 @@ class DepthResult {
   /// The light field with its pictures. Of unstructured views they lie in the folder; of others
   /// they are those of `input`, or, when that is empty, of what depth was computed of.
   LightField with_pictures(const std::filesystem::path& input = {}) const;
+
+  /// `input`, or when that is empty what depth was computed of, in the size of the maps: all its
+  /// views, also those that were left out.
+  LightField open_input(const std::filesystem::path& input = {}) const;
 
  private:
   FloatMap map(int view, const char* name) const;

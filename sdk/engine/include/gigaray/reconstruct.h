@@ -57,6 +57,16 @@ struct BackendChoice {
   std::string device;
 };
 
+/// Where the estimate of a pixel comes from.
+struct Decision {
+  int level = -1;  ///< Pyramid level that decided; −1: none did
+  /// View that it was found in, and the pixel of its level; −1: filled between the estimates around.
+  int view = -1, u = -1, v = -1;
+  float disparity = kNoEstimate;  ///< As found, before the final median; unit of ViewDepth
+  /// What was searched there: a part of the range where estimates of finer levels bound it.
+  DisparityRange bounds;
+};
+
 /// Result of a run; keeps the estimates of all levels (in memory or on disk) and makes the maps of
 /// a view when asked. Movable. Not thread-safe.
 class Reconstruction {
@@ -77,6 +87,9 @@ class Reconstruction {
 
   /// Fills coarse estimates down to level 0 (section 4.5). view_idx: one of views().
   ViewDepth view(int view_idx);
+
+  /// Why pixel (u, v) of one of views() has its estimate. Throws Error(kInvalidArgument) outside.
+  Decision decision(int view_idx, int u, int v) const;
 
   /// All tuples in a fixed order: level, view as processed, v, u.
   void for_each_tuple(const std::function<void(const RayTuple&)>& visit) const;
