@@ -86,7 +86,8 @@ Run decode_command(CLI::App& app) {
   app.add_option("--views", settings->views,
                  "all, centre, or a list of names, indices and ranges: 0,4-6,view_09")
       ->capture_default_str();
-  app.add_option("--rows", settings->rows, "These rows alone: the first, and the one after the last")
+  app.add_option("--rows", settings->rows,
+                 "These rows alone: the first, and the one after the last")
       ->expected(2)
       ->type_name("BEGIN END");
   app.add_flag("--depth", settings->depth,

@@ -114,7 +114,8 @@ Run encode_command(CLI::App& app) {
   app.description("Light field to one compact file, lossless");
   auto settings = std::make_shared<Settings>();
   settings->run.add_to(app);
-  app.add_option("-o,--output", settings->output, "File for the result, .grl; replaced if it is there")
+  app.add_option("-o,--output", settings->output,
+                 "File for the result, .grl; replaced if it is there")
       ->type_name("FILE.grl")
       ->required();
   app.add_option("--depth", settings->depth,

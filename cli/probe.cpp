@@ -44,11 +44,11 @@ struct Peak {
 struct Finding {
   int view = 0, u = 0, v = 0;
   ScoreCurve curve;
-  std::optional<Peak> best;       ///< Empty: no hypothesis could be tested.
-  std::optional<Peak> runner_up;  ///< The highest peak outside the winner's own hill.
-  double mean = kNoEstimate;      ///< Of the tested hypotheses.
-  int seen_by = 0;                ///< Views that see the point of the winner.
-  float min_confidence = 0;       ///< `depth` leaves what has no more to coarser levels.
+  std::optional<Peak> best;          ///< Empty: no hypothesis could be tested.
+  std::optional<Peak> runner_up;     ///< The highest peak outside the winner's own hill.
+  double mean = kNoEstimate;         ///< Of the tested hypotheses.
+  int seen_by = 0;                   ///< Views that see the point of the winner.
+  float min_confidence = 0;          ///< `depth` leaves what has no more to coarser levels.
   std::optional<Decision> decision;  ///< of a whole run, if asked for
 };
 
@@ -124,7 +124,8 @@ void print_decision(const Finding& finding, const LightField& light_field) {
       decision.view < 0 ? "filled between the estimates around"
                         : fmt::format("view {}, u {}, v {}", light_field.views[decision.view].name,
                                       decision.u, decision.v);
-  fmt::print("{:<12}{:.4f} on level {}: {}\n", "decided", decision.disparity, decision.level, where);
+  fmt::print("{:<12}{:.4f} on level {}: {}\n", "decided", decision.disparity, decision.level,
+             where);
   fmt::print("{:<12}{:.4g} … {:.4g}\n", "bounds", decision.bounds.min, decision.bounds.max);
 }
 
@@ -314,9 +315,10 @@ Run probe_command(CLI::App& app) {
          "Folder for pictures: the epipolar-plane image, the colours that the views see, the "
          "score curve; replaced if it is an older result")
       ->type_name("DIR");
-  app.add_flag("--decided", settings->decided,
-               "Compute the depth of all views too, as `depth` does, and tell which level and which "
-               "view decided this pixel, and what was searched there");
+  app.add_flag(
+      "--decided", settings->decided,
+      "Compute the depth of all views too, as `depth` does, and tell which level and which "
+      "view decided this pixel, and what was searched there");
   app.add_flag("--json", settings->json, "Print JSON");
   return [settings](const RunControl& control) { run(*settings, control); };
 }

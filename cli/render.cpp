@@ -50,7 +50,8 @@ struct Frame {
 ordered_json to_json(const std::vector<Frame>& frames) {
   ordered_json list = ordered_json::array();
   for (const Frame& frame : frames)
-    list.push_back({{"file", frame.file}, {"camera", camera_json(frame.camera)}, {"seen", frame.seen}});
+    list.push_back(
+        {{"file", frame.file}, {"camera", camera_json(frame.camera)}, {"seen", frame.seen}});
   return list;
 }
 
@@ -118,8 +119,7 @@ void render_pose(const Settings& settings, RenderScene& scene, const RunControl&
   const Camera camera = parse_pose(settings.pose, scene);
   Output output(settings, scene.light_field().pixels->bit_depth());
   control.progress("render", 0, 1);
-  const NovelView view =
-      scene.render(camera, settings.sources, -1, options_of(settings), control);
+  const NovelView view = scene.render(camera, settings.sources, -1, options_of(settings), control);
   output.write("view.png", view.picture);
   output.write("inverse_depth.pfm", view.inverse_depth);
   const Frame frame{"view.png", camera, share(view.seen)};
@@ -176,15 +176,15 @@ void leave_one_out(const Settings& settings, RenderScene& scene, const RunContro
   const int index = scene.find(settings.leave_out);
   RealView real;
   int exclude = -1;
-  if (index < 0 && std::any_of(scene.light_field().left_out.begin(),
-                               scene.light_field().left_out.end(), [&](const View& view) {
-                                 return view.name == settings.leave_out;
-                               })) {
+  if (index < 0 &&
+      std::any_of(scene.light_field().left_out.begin(), scene.light_field().left_out.end(),
+                  [&](const View& view) { return view.name == settings.leave_out; })) {
     real = scene.left_out(settings.leave_out);
   } else {
     exclude = parse_view(settings.leave_out, scene.light_field());
     real = real_view(scene.light_field(), exclude, scene.rig().camera(exclude));
-    control.message("its picture had a part in the depth of the others; `depth --without` keeps it out");
+    control.message(
+        "its picture had a part in the depth of the others; `depth --without` keeps it out");
   }
   const int bit_depth = scene.light_field().pixels->bit_depth();
   Output output(settings, bit_depth);
@@ -210,10 +210,8 @@ void leave_one_out(const Settings& settings, RenderScene& scene, const RunContro
   };
   const Score scores[] = {
       {"rendered", "rendered", quality(view.picture)},
-      {"equal_weights", "without view-dependent weights",
-       quality(alike.picture)},
-      {"nearest_two", "the two nearest views blended",
-       quality(blend)}};
+      {"equal_weights", "without view-dependent weights", quality(alike.picture)},
+      {"nearest_two", "the two nearest views blended", quality(blend)}};
   ordered_json qualities = ordered_json::object();
   for (const Score& score : scores)
     qualities[score.name] = {{"psnr", score.quality.psnr}, {"ssim", score.quality.ssim}};
@@ -257,8 +255,9 @@ void run(const Settings& settings, const RunControl& control) {
     throw Error(ErrorCode::kInvalidArgument, "--refocus takes one number, or three for a plane");
   RenderScene scene(settings.result, settings.input, settings.min_confidence);
   if (!scene.rig().is_metric() && settings.refocus.empty())
-    control.message("focal length and view step aren't known: poses off the plane of the cameras "
-                    "are true up to a projective map");
+    control.message(
+        "focal length and view step aren't known: poses off the plane of the cameras "
+        "are true up to a projective map");
   if (!settings.pose.empty()) render_pose(settings, scene, control);
   if (!settings.path.empty()) render_path(settings, scene, control);
   if (!settings.leave_out.empty()) leave_one_out(settings, scene, control);
@@ -271,12 +270,13 @@ void run(const Settings& settings, const RunControl& control) {
 Run render_command(CLI::App& app) {
   app.description("Novel views, refocused views");
   app.footer(
-      "A pose is a view (centre, name or index), S,T (a place between the views of a 3D or 4D light "
-      "field, view steps),\neither of them with +X,Y,Z (moved right, down and ahead, scene units), or "
+      "A pose is a view (centre, name or index), S,T (a place between the views of a 3D or 4D "
+      "light "
+      "field, view steps),\neither of them with +X,Y,Z (moved right, down and ahead, scene units), "
+      "or "
       "FILE.json with a camera as in\ngigaray.json of `depth`.");
   auto settings = std::make_shared<Settings>();
-  app.add_option("RESULT", settings->result,
-                 "What `gigaray depth` wrote, or a .grl file")
+  app.add_option("RESULT", settings->result, "What `gigaray depth` wrote, or a .grl file")
       ->type_name("OUT")
       ->required();
   app.add_option("--pose", settings->pose, "One picture from this pose")->type_name("POSE");
@@ -310,7 +310,8 @@ Run render_command(CLI::App& app) {
   app.add_option("--sources", settings->sources, "Views that a novel view is made of, the nearest")
       ->check(CLI::Range(1, 32))
       ->capture_default_str();
-  app.add_option("--min-confidence", settings->min_confidence, "Leave out points that are less sure")
+  app.add_option("--min-confidence", settings->min_confidence,
+                 "Leave out points that are less sure")
       ->check(CLI::NonNegativeNumber)
       ->type_name("C");
   app.add_flag("--equal-weights", settings->equal_weights,

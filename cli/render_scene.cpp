@@ -61,8 +61,9 @@ RenderScene::RenderScene(const fs::path& result, const fs::path& input, double m
     };
   } else {
     if (min_confidence > 0)
-      throw Error(ErrorCode::kInvalidArgument,
-                  "--min-confidence: a .grl file holds no confidence; render the folder of `depth`");
+      throw Error(
+          ErrorCode::kInvalidArgument,
+          "--min-confidence: a .grl file holds no confidence; render the folder of `depth`");
     const SparseFile file(result);
     light_field_ = file.light_field();
     range = file.disparity_range();
@@ -118,8 +119,8 @@ RealView RenderScene::left_out(const std::string& name) const {
   const auto place = std::find_if(light_field_.left_out.begin(), light_field_.left_out.end(),
                                   [&](const View& view) { return view.name == name; });
   if (place == light_field_.left_out.end())
-    throw Error(ErrorCode::kInvalidArgument, fmt::format("view {}: {} has no view of this name",
-                                                         name, result_.string()));
+    throw Error(ErrorCode::kInvalidArgument,
+                fmt::format("view {}: {} has no view of this name", name, result_.string()));
   const LightField all = open_input_();
   const auto view = std::find_if(all.views.begin(), all.views.end(),
                                  [&](const View& other) { return other.name == name; });

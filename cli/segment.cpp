@@ -62,8 +62,7 @@ Interval interval_of(const Settings& settings, const LightField& light_field) {
   const bool rises = settings.near > settings.far;
   if (settings.unit == "disparity" && !rises)
     throw bad("--unit disparity: --near must be larger than --far, near things move more");
-  if (settings.unit == "depth" && rises)
-    throw bad("--unit depth: --near must be less than --far");
+  if (settings.unit == "depth" && rises) throw bad("--unit depth: --near must be less than --far");
   if (rises) {
     const bool posed = light_field.kind == LightFieldKind::kUnstructured;
     return {posed ? Unit::kInverseDepth : Unit::kDisparity,
@@ -87,9 +86,8 @@ Image<std::uint16_t> as_picture(const Mask& mask) {
 
 Image<std::uint16_t> as_picture(const FloatMap& matte) {
   Image<std::uint16_t> picture(matte.width(), matte.height());
-  std::transform(matte.begin(), matte.end(), picture.begin(), [](float opacity) {
-    return std::uint16_t(std::lround(opacity * 65535));
-  });
+  std::transform(matte.begin(), matte.end(), picture.begin(),
+                 [](float opacity) { return std::uint16_t(std::lround(opacity * 65535)); });
   return picture;
 }
 
@@ -102,14 +100,27 @@ Image<std::uint16_t> colours(const LightField& light_field, int view, const Mask
   return rgb;
 }
 
+/// matte: empty if there is none.
+void write_masks(const std::filesystem::path& place, const Mask& mask, const FloatMap& matte,
+                 bool as_exr) {
+  write_png(place / "mask.png", as_picture(mask), 8);
+  if (!matte.empty()) write_png(place / "matte.png", as_picture(matte), 16);
+  if (!as_exr) return;
+  if (!matte.empty()) return write_exr(place / "matte.exr", matte);
+  FloatMap opacity(mask.width(), mask.height());
+  std::copy(mask.begin(), mask.end(), opacity.begin());
+  write_exr(place / "mask.exr", opacity);
+}
+
 void run(const Settings& settings, const RunControl& control) {
   const DepthResult depth(settings.result);
   const LightField& geometry = depth.light_field();
   const Interval interval = interval_of(settings, geometry);
   std::vector<int> views = parse_views(settings.views, geometry);
   if (views.empty()) views = all_views(geometry.num_views());
-  const bool as_exr = std::set<std::string>(settings.formats.begin(), settings.formats.end())
-                          .contains("exr");
+  const int centre = centre_view(geometry);
+  const bool as_exr =
+      std::set<std::string>(settings.formats.begin(), settings.formats.end()).contains("exr");
   LightField light_field;
   if (settings.soft) light_field = depth.with_pictures(settings.input);
 
@@ -128,21 +139,16 @@ void run(const Settings& settings, const RunControl& control) {
     if (interval.unit == Unit::kDepth) map = depth_from_disparity(map, geometry);
     segment(map, interval.values, mask);
 
+    FloatMap matte;
+    if (settings.soft)
+      matte = soft_matte(mask, colours(light_field, views[i], mask),
+                         light_field.pixels->bit_depth(), settings.matte);
     const std::filesystem::path place = folder.path() / name;
     std::error_code error;
     std::filesystem::create_directories(place, error);
     if (error) throw Error(ErrorCode::kIo, place.string() + ": " + error.message());
-    write_png(place / "mask.png", as_picture(mask), 8);
-    if (settings.soft) {
-      const FloatMap matte = soft_matte(mask, colours(light_field, views[i], mask),
-                                        light_field.pixels->bit_depth(), settings.matte);
-      write_png(place / "matte.png", as_picture(matte), 16);
-      if (as_exr) write_exr(place / "matte.exr", matte);
-    } else if (as_exr) {
-      FloatMap opacity(mask.width(), mask.height());
-      std::copy(mask.begin(), mask.end(), opacity.begin());
-      write_exr(place / "mask.exr", opacity);
-    }
+    write_masks(place, mask, matte, as_exr);
+    if (views[i] == centre) write_masks(folder.path(), mask, matte, as_exr);
     const auto inside = std::count(mask.begin(), mask.end(), 1);
     list.push_back({{"name", name}, {"share", double(inside) / double(mask.size())}});
   }
@@ -186,7 +192,8 @@ Run segment_command(CLI::App& app) {
       ->check(CLI::IsMember({"auto", "disparity", "depth"}))
       ->capture_default_str();
   app.add_option("-o,--output", settings->output,
-                 "Folder for VIEW/mask.png; replaced if it is an older result")
+                 "Folder for VIEW/mask.png, that of the centre view also at top level; replaced if "
+                 "it is an older result")
       ->type_name("DIR")
       ->required();
   app.add_option("--views", settings->views,

@@ -86,9 +86,7 @@ class PicturesBesideMaps : public PixelSource {
   bool has_mask_ = false;
 };
 
-json read_json(const fs::path& path) {
-  return json::parse(read_bytes(path), nullptr, false);
-}
+json read_json(const fs::path& path) { return json::parse(read_bytes(path), nullptr, false); }
 
 }  // namespace
 
@@ -99,8 +97,7 @@ Camera read_camera(const fs::path& path) {
   try {
     return camera_of(root.contains("camera") ? root["camera"] : root, "camera");
   } catch (const json::exception& problem) {
-    throw Error(ErrorCode::kBadInput,
-                path.string() + ": holds no camera (" + problem.what() + ")");
+    throw Error(ErrorCode::kBadInput, path.string() + ": holds no camera (" + problem.what() + ")");
   } catch (const Error& problem) {
     throw Error(problem.code(), path.string() + ": " + problem.what());
   }
@@ -124,8 +121,9 @@ DepthResult::DepthResult(const fs::path& folder) : folder_(folder) {
     const json& range = root.at("options").at("disparity_range");
     searched_ = {range.at(0), range.at(1)};
   } catch (const json::exception& problem) {
-    throw Error(ErrorCode::kBadInput, path.string() + ": an entry is missing or of the wrong type (" +
-                                          problem.what() + ")");
+    throw Error(
+        ErrorCode::kBadInput,
+        path.string() + ": an entry is missing or of the wrong type (" + problem.what() + ")");
   } catch (const Error& problem) {
     throw Error(problem.code(), path.string() + ": " + problem.what());
   }
@@ -168,8 +166,7 @@ LightField DepthResult::with_pictures(const fs::path& input) const {
   LightField light_field = light_field_;
   if (light_field.kind == LightFieldKind::kUnstructured) {
     std::vector<fs::path> files;
-    for (const View& view : light_field.views)
-      files.push_back(folder_ / view.name / "picture.png");
+    for (const View& view : light_field.views) files.push_back(folder_ / view.name / "picture.png");
     light_field.pixels = std::make_shared<PicturesBesideMaps>(std::move(files), light_field);
     return light_field;
   }

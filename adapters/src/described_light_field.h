@@ -17,8 +17,8 @@ struct DescribedLightField {
   std::vector<std::string> files;  ///< relative to the folder of the description
 };
 
-/// Kind, size, rig, range of disparities and views of a light field, without pixels: the common part
-/// of the program's own formats.
+/// Kind, size, rig, range of disparities and views of a light field, without pixels: the common
+/// part of the program's own formats.
 nlohmann::ordered_json description_of(const LightField& light_field);
 /// Parts of it, and a camera as `gigaray depth` writes it. These and the next function throw
 /// Error(kBadInput) or an exception of the JSON library.

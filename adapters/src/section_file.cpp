@@ -106,10 +106,10 @@ std::string SectionReader::read(const Section& section) const {
       throw Error(ErrorCode::kIo, path_.string() + ": can't be read to its end");
   }
   if (checksum_of(bytes) != section.checksum)
-    throw Error(ErrorCode::kBadInput,
-                path_.string() + ": is damaged: a checksum is wrong between bytes " +
-                    std::to_string(section.offset) + " and " +
-                    std::to_string(section.offset + section.size));
+    throw Error(ErrorCode::kBadInput, path_.string() +
+                                          ": is damaged: a checksum is wrong between bytes " +
+                                          std::to_string(section.offset) + " and " +
+                                          std::to_string(section.offset + section.size));
   return bytes;
 }
 

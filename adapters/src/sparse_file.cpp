@@ -91,7 +91,8 @@ LightField SparseFile::light_field() const {
   LightField light_field = impl_->directory.light_field;
   light_field.pixels = std::make_shared<PicturesOfSparseFile>(*this);
   if (max_error() > 0)
-    light_field.notes.push_back(impl_->file.path().string() + ": is lossy, values are off by up to " +
+    light_field.notes.push_back(impl_->file.path().string() +
+                                ": is lossy, values are off by up to " +
                                 std::to_string(max_error()));
   return light_field;
 }

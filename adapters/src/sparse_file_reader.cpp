@@ -19,9 +19,9 @@ class SparseFileReader : public Reader {
 
   ProbeResult probe(const fs::path& input) const override {
     std::error_code ignored;
-    return {lower(input.extension().string()) == ".grl" && fs::is_regular_file(input, ignored) ? 90
-                                                                                               : 0,
-            ""};
+    return {
+        lower(input.extension().string()) == ".grl" && fs::is_regular_file(input, ignored) ? 90 : 0,
+        ""};
   }
 
   LightField open(const fs::path& input, const OpenOptions& options) const override {

@@ -28,8 +28,8 @@ struct CodedBand {
 
 }  // namespace
 
-SparseFileReport write_sparse_file(const std::filesystem::path& path,
-                                   const LightField& light_field, const DisparityOfView& disparity,
+SparseFileReport write_sparse_file(const std::filesystem::path& path, const LightField& light_field,
+                                   const DisparityOfView& disparity,
                                    const SparseFileOptions& options, const RunControl& control) {
   check(light_field);
   if (light_field.pixels->has_mask())
@@ -48,8 +48,7 @@ SparseFileReport write_sparse_file(const std::filesystem::path& path,
   const SparseShape& shape = directory.shape;
   SectionWriter file(path);
 
-  const SparseTuples tuples =
-      choose_tuples(light_field, shape, disparity, options.sparse, control);
+  const SparseTuples tuples = choose_tuples(light_field, shape, disparity, options.sparse, control);
   SparseFileReport report;
   report.rays = std::uint64_t(light_field.num_views()) * light_field.width * light_field.height;
   report.rgb_bytes = report.rays * 3 * shape.bit_depth / 8;
@@ -69,8 +68,8 @@ SparseFileReport write_sparse_file(const std::filesystem::path& path,
         [&](int band) {
           const RowRange rows = shape.band(band);
           DrawnRows drawn = draw_tuples(shape, tuples, view, rows);
-          bands[band].unexplained = std::uint64_t(
-              std::count(drawn.slope.begin(), drawn.slope.end(), DrawnRows::kNone));
+          bands[band].unexplained =
+              std::uint64_t(std::count(drawn.slope.begin(), drawn.slope.end(), DrawnRows::kNone));
           fill_undrawn(drawn);
           bands[band].bytes = encode_difference(rows_of(picture, rows), drawn.colour,
                                                 shape.bit_depth, options.max_error);

@@ -23,14 +23,14 @@ class SparseFileTest : public AdaptersTest {
   static constexpr int kWide = 61, kHigh = 43;
 
   static AnalyticField field_of(std::vector<View> views, int bit_depth = 8) {
-    return analytic_field(kWide, kHigh, std::move(views),
-                          {{-0.5, 1}, {1.3, 2, 1, 20, 40, 12, 33}}, bit_depth, 0.01);
+    return analytic_field(kWide, kHigh, std::move(views), {{-0.5, 1}, {1.3, 2, 1, 20, 40, 12, 33}},
+                          bit_depth, 0.01);
   }
   std::filesystem::path file() const { return folder / "field.grl"; }
 
   SparseFileReport encode(const AnalyticField& field, const SparseFileOptions& options = {}) const {
-    return write_sparse_file(
-        file(), field.light_field, [&](int view) { return field.disparity[view]; }, options, {});
+    return write_sparse_file(file(), field.light_field,
+                             [&](int view) { return field.disparity[view]; }, options, {});
   }
   void expect_same_pictures(const AnalyticField& field, const LightField& decoded) const {
     ASSERT_EQ(decoded.num_views(), field.light_field.num_views());
@@ -51,7 +51,8 @@ TEST_F(SparseFileTest, RestoresEveryPixelOfEveryView) {
   for (const int bit_depth : {8, 16})
     for (const auto& views : {row_of_views(5), grid_of_views(3, 3), irregular_grid()}) {
       const AnalyticField field = field_of(views, bit_depth);
-      const SparseFileReport report = encode(field, {.max_error = 0, .band_rows = 10, .sparse = {}});
+      const SparseFileReport report =
+          encode(field, {.max_error = 0, .band_rows = 10, .sparse = {}});
       EXPECT_EQ(report.unexplained, 0u);
       EXPECT_EQ(report.rays, std::uint64_t(views.size()) * kWide * kHigh);
       EXPECT_EQ(report.rgb_bytes, report.rays * 3 * bit_depth / 8);
@@ -109,8 +110,8 @@ TEST_F(SparseFileTest, APartIsTheSameAsThatPartOfTheWhole) {
     const Image<std::uint16_t> part = fresh.picture(2, rows);
     EXPECT_TRUE(std::equal(part.begin(), part.end(), all.row(rows.begin)));
     const FloatMap part_disparity = fresh.disparity(2, rows);
-    EXPECT_TRUE(std::equal(part_disparity.begin(), part_disparity.end(),
-                           disparity.row(rows.begin)));
+    EXPECT_TRUE(
+        std::equal(part_disparity.begin(), part_disparity.end(), disparity.row(rows.begin)));
   }
 }
 
@@ -138,8 +139,7 @@ TEST_F(SparseFileTest, LossyKeepsTheBoundAndSaysSo) {
   EXPECT_NE(decoded.notes.back().find("up to 3"), std::string::npos);
   for (int view = 0; view < decoded.num_views(); ++view) {
     const Image<std::uint16_t> a = read_view(decoded, view), b = read_view(field.light_field, view);
-    for (std::size_t i = 0; i < a.size(); ++i)
-      ASSERT_LE(std::abs(a.data()[i] - b.data()[i]), 3);
+    for (std::size_t i = 0; i < a.size(); ++i) ASSERT_LE(std::abs(a.data()[i] - b.data()[i]), 3);
   }
 }
 
@@ -167,7 +167,8 @@ TEST_F(SparseFileTest, EveryFlippedByteIsFound) {
 TEST_F(SparseFileTest, TruncatedLongerAndNewerFilesAreRefused) {
   encode(field_of(row_of_views(2)));
   const std::string bytes = read("field.grl");
-  for (const std::size_t size : {bytes.size() - 1, bytes.size() / 2, std::size_t(57), std::size_t(20)}) {
+  for (const std::size_t size :
+       {bytes.size() - 1, bytes.size() / 2, std::size_t(57), std::size_t(20)}) {
     write("field.grl", bytes.substr(0, size));
     expect_damaged("is cut short");
   }
@@ -197,9 +198,9 @@ TEST_F(SparseFileTest, AFailureLeavesTheOlderFile) {
   encode(field);
   const std::string before = read("field.grl");
   expect_error(ErrorCode::kBadInput, "no depth", [&] {
-    write_sparse_file(
-        file(), field.light_field,
-        [](int) -> FloatMap { throw Error(ErrorCode::kBadInput, "no depth"); }, {}, {});
+    write_sparse_file(file(), field.light_field,
+                      [](int) -> FloatMap { throw Error(ErrorCode::kBadInput, "no depth"); }, {},
+                      {});
   });
   EXPECT_EQ(read("field.grl"), before);
   EXPECT_EQ(names(), std::set<std::string>{"field.grl"});

@@ -100,8 +100,8 @@ TEST(NovelView, KnowsItsDepth) {
   int wrong = 0;
   for (int v = 0; v < kHeight; ++v)
     for (int u = 0; u < kWidth; ++u)
-      wrong += !(std::abs(rig.disparity(novel.inverse_depth(u, v)) - field.disparity[2](u, v)) <
-                 0.05);
+      wrong +=
+          !(std::abs(rig.disparity(novel.inverse_depth(u, v)) - field.disparity[2](u, v)) < 0.05);
   // Points reach 3/4 px.
   EXPECT_LT(wrong, 2 * 2 * (33 - 12 + 2) + 2 * 2 * 30);
 }
@@ -195,8 +195,7 @@ TEST(Refocus, WhatIsInFocusIsSharpAndTheRestIsNot) {
   const int centre = centre_view(field.light_field);
   const Image<std::uint16_t> picture = read_view(field.light_field, centre);
   const auto error_at = [&](double disparity, int u0, int u1, int v0, int v1) {
-    const Image<std::uint16_t> refocused =
-        refocus(field.light_field, centre, {disparity}, 1e9, {});
+    const Image<std::uint16_t> refocused = refocus(field.light_field, centre, {disparity}, 1e9, {});
     double sum = 0;
     for (int v = v0; v < v1; ++v)
       for (int u = u0; u < u1; ++u)
@@ -235,8 +234,8 @@ TEST(PictureQuality, KnownValues) {
   // 20 log10(255 / 10)
   EXPECT_NEAR(picture_quality(b, a, 8).psnr, 28.1308, 1e-3);
   // Flat pictures: (2 μ μ' + C1) / (μ² + μ'² + C1), C1 = (0.01 · 255)².
-  EXPECT_NEAR(picture_quality(b, a, 8).ssim, (2 * 100.0 * 110 + 6.5025) / (100.0 * 100 + 110.0 * 110 + 6.5025),
-              1e-4);
+  EXPECT_NEAR(picture_quality(b, a, 8).ssim,
+              (2 * 100.0 * 110 + 6.5025) / (100.0 * 100 + 110.0 * 110 + 6.5025), 1e-4);
 }
 
 }  // namespace

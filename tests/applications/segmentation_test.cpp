@@ -17,8 +17,8 @@ using testing_support::expect_error;
 
 TEST(Segment, TakesTheClosedIntervalAndNoUnknown) {
   FloatMap map(7, 1);
-  const float values[] = {0.99f, 1, 1.5f, 2, 2.01f, kNoEstimate,
-                          std::numeric_limits<float>::infinity()};
+  const float values[] = {
+      0.99f, 1, 1.5f, 2, 2.01f, kNoEstimate, std::numeric_limits<float>::infinity()};
   std::copy(std::begin(values), std::end(values), map.begin());
   Mask mask;
   segment(map, {1, 2}, mask);

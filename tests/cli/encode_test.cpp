@@ -17,8 +17,7 @@ using nlohmann::json;
 class EncodeCommand : public ProgramTest {
  protected:
   EncodeCommand() {
-    const Result made =
-        run("synth planes -o made --samples 2 --views 5 --width 48 --height 37");
+    const Result made = run("synth planes -o made --samples 2 --views 5 --width 48 --height 37");
     EXPECT_EQ(made.exit_code, 0) << made.err;
   }
   json encode(const std::string& options = "") const {

@@ -17,8 +17,8 @@ class RenderCommand : public ProgramTest {
   RenderCommand() { make("made", ""); }
 
   void make(const std::string& name, const std::string& options) const {
-    const Result made = run("synth planes -o " + name +
-                            " --samples 2 --views 5 --width 64 --height 48 " + options);
+    const Result made =
+        run("synth planes -o " + name + " --samples 2 --views 5 --width 64 --height 48 " + options);
     EXPECT_EQ(made.exit_code, 0) << made.err;
     const Result depth = run("depth " + name + " -o " + name + "_depth");
     EXPECT_EQ(depth.exit_code, 0) << depth.err;

@@ -17,7 +17,8 @@ using nlohmann::json;
 class SegmentCommand : public ProgramTest {
  protected:
   SegmentCommand() {
-    EXPECT_EQ(run("synth planes -o made --samples 2 --views 5 --width 48 --height 37").exit_code, 0);
+    EXPECT_EQ(run("synth planes -o made --samples 2 --views 5 --width 48 --height 37").exit_code,
+              0);
     EXPECT_EQ(run("depth made -o depth").exit_code, 0);
   }
   cv::Mat mask(const std::string& path) const {
@@ -103,16 +104,14 @@ TEST_F(SegmentCommand, DistancesNeedARig) {
 TEST_F(SegmentCommand, MissingAndDamagedMapsAreNamed) {
   std::filesystem::remove(folder / "depth/view_03/disparity.pfm");
   expect_refusal("segment depth -o x --near 2 --far 1", 1, "view_03/disparity.pfm");
-  std::filesystem::copy(folder / "made/truth/view_03.pfm",
-                        folder / "depth/view_03/disparity.pfm");
+  std::filesystem::copy(folder / "made/truth/view_03.pfm", folder / "depth/view_03/disparity.pfm");
   EXPECT_EQ(run("segment depth -o x --near 2 --far 1").exit_code, 0);
   std::filesystem::resize_file(folder / "depth/view_03/disparity.pfm", 100);
   expect_refusal("segment depth -o y --near 2 --far 1", 1, "view_03/disparity.pfm");
   // Soft edges need the pictures.
   std::filesystem::rename(folder / "made", folder / "moved");
   expect_refusal("segment depth -o y --near 2 --far 1 --soft --views 0", 1, "--input");
-  EXPECT_EQ(
-      run("segment depth -o y --near 2 --far 1 --soft --views 0 --input moved").exit_code, 0);
+  EXPECT_EQ(run("segment depth -o y --near 2 --far 1 --soft --views 0 --input moved").exit_code, 0);
 }
 
 }  // namespace

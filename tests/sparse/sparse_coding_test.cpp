@@ -27,10 +27,9 @@ Picture picture_of(int width, int height, int bit_depth, int noise, unsigned see
   for (int v = 0; v < height; ++v)
     for (int u = 0; u < width; ++u)
       for (int c = 0; c < 3; ++c)
-        picture(u, v, c) = std::uint16_t(
-            std::clamp<int>(most / 3 + (u + 2 * v) * most / 600 + int(random() % (2 * noise + 1)) -
-                                noise,
-                            0, most));
+        picture(u, v, c) = std::uint16_t(std::clamp<int>(
+            most / 3 + (u + 2 * v) * most / 600 + int(random() % (2 * noise + 1)) - noise, 0,
+            most));
   return picture;
 }
 
@@ -38,8 +37,14 @@ TEST(DifferenceCoding, RestoresEveryPictureFromAnyDrawing) {
   struct Case {
     int width, height, bit_depth, noise;
   };
-  for (const Case& c : {Case{1, 1, 8, 3}, {7, 1, 8, 255}, {1, 9, 8, 2}, {93, 47, 8, 0},
-                        {93, 47, 8, 4}, {64, 33, 8, 255}, {31, 17, 16, 65535}, {93, 47, 16, 900}}) {
+  for (const Case& c : {Case{1, 1, 8, 3},
+                        {7, 1, 8, 255},
+                        {1, 9, 8, 2},
+                        {93, 47, 8, 0},
+                        {93, 47, 8, 4},
+                        {64, 33, 8, 255},
+                        {31, 17, 16, 65535},
+                        {93, 47, 16, 900}}) {
     const Picture picture = picture_of(c.width, c.height, c.bit_depth, c.noise, 1);
     const Picture alike = picture_of(c.width, c.height, c.bit_depth, c.noise, 2);
     const Picture black(c.width, c.height, 3);
@@ -94,7 +99,8 @@ TEST(DifferenceCoding, DamagedBytesEndInAnErrorOrAPicture) {
       }
     }
   EXPECT_GT(refused, 0);
-  for (const std::size_t size : {std::size_t(0), std::size_t(1), bytes.size() / 2, bytes.size() - 1})
+  for (const std::size_t size :
+       {std::size_t(0), std::size_t(1), bytes.size() / 2, bytes.size() - 1})
     expect_error(ErrorCode::kBadInput, {"is damaged"},
                  [&] { decode_difference(bytes.substr(0, size), drawn, 8); });
 }
@@ -166,14 +172,14 @@ TEST(Compressed, RestoresAnyBytesAndRefusesMoreThanItMay) {
   const std::string bytes(1000, 'x');
   EXPECT_EQ(decompressed(compressed(bytes), 1000), bytes);
   EXPECT_EQ(decompressed(compressed(""), 0), "");
-  expect_error(ErrorCode::kBadInput, {"too large"},
-               [&] { decompressed(compressed(bytes), 999); });
+  expect_error(ErrorCode::kBadInput, {"too large"}, [&] { decompressed(compressed(bytes), 999); });
 }
 
 TEST(RangeCoder, RestoresNumbersOfAnySize) {
   std::mt19937 random(3);
   std::vector<std::uint32_t> numbers{0, 1, 19, 20, 21, 255, 70000, 131071};
-  for (int i = 0; i < 20000; ++i) numbers.push_back(random() % 100 < 97 ? random() % 3 : random() % 3000);
+  for (int i = 0; i < 20000; ++i)
+    numbers.push_back(random() % 100 < 97 ? random() % 3 : random() % 3000);
   for (const int low_bits : {0, 1, 5, 12}) {
     RangeEncoder encoder;
     NumberModel written;

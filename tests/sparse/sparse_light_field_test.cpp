@@ -25,8 +25,8 @@ constexpr int kWidth = 93, kHeight = 47;
 
 SparseTuples choose(const AnalyticField& field, const SparseShape& shape,
                     const SparseOptions& options = {}) {
-  return choose_tuples(
-      field.light_field, shape, [&](int view) { return field.disparity[view]; }, options, {});
+  return choose_tuples(field.light_field, shape, [&](int view) { return field.disparity[view]; },
+                       options, {});
 }
 
 /// A near patch over a far plane.
@@ -38,7 +38,8 @@ AnalyticField two_layers(std::vector<View> views) {
 /// Painting from back to front: the plain meaning of draw_tuples.
 DrawnRows draw_plainly(const SparseShape& shape, const SparseTuples& tuples, int view) {
   std::vector<SparseTuple> all;
-  for (const TupleBand& band : tuples) all.insert(all.end(), band.tuples.begin(), band.tuples.end());
+  for (const TupleBand& band : tuples)
+    all.insert(all.end(), band.tuples.begin(), band.tuples.end());
   const auto place = [&](const SparseTuple& tuple, auto axis, int at) {
     const double from = double(shape.positions[tuple.view].*axis) / 65536;
     const double to = double(shape.positions[view].*axis) / 65536;
@@ -60,9 +61,8 @@ DrawnRows draw_plainly(const SparseShape& shape, const SparseTuples& tuples, int
       double weights = 0, sums[3] = {};
       for (const SparseTuple& tuple : all) {
         if (std::abs(tuple.slope - front) > shape.slope_tolerance || distance(tuple) >= 1) continue;
-        const double weight =
-            (1 - std::abs(place(tuple, &SparseShape::Position::s, tuple.u) - u)) *
-            (1 - std::abs(place(tuple, &SparseShape::Position::t, tuple.v) - v));
+        const double weight = (1 - std::abs(place(tuple, &SparseShape::Position::s, tuple.u) - u)) *
+                              (1 - std::abs(place(tuple, &SparseShape::Position::t, tuple.v) - v));
         weights += weight;
         for (int c = 0; c < 3; ++c) sums[c] += weight * tuple.colour[c];
       }
@@ -173,8 +173,7 @@ TEST(SparseLightField, RaysWithoutAnEstimateAreLeftOut) {
   const SparseShape shape = sparse_shape(field.light_field, 8, 16);
   EXPECT_EQ(num_tuples(choose(field, shape)), 0u);
   const DrawnRows drawn = draw_tuples(shape, choose(field, shape), 0, {0, kHeight});
-  EXPECT_EQ(std::count(drawn.slope.begin(), drawn.slope.end(), DrawnRows::kNone),
-            kWidth * kHeight);
+  EXPECT_EQ(std::count(drawn.slope.begin(), drawn.slope.end(), DrawnRows::kNone), kWidth * kHeight);
 }
 
 TEST(SparseLightField, SlopesAreFineEnoughForAWideRig) {

@@ -91,8 +91,7 @@ class Renderer {
   NovelView run(const RunControl& control) {
     std::vector<std::optional<SplatMap>> splats(sources_.size());
     parallel_for(
-        int(sources_.size()),
-        [&](int i) { splats[i].emplace(camera_, sources_[i], tolerance_); },
+        int(sources_.size()), [&](int i) { splats[i].emplace(camera_, sources_[i], tolerance_); },
         [&](int) { control.throw_if_cancelled(); });
     for (auto& splat : splats) splats_.push_back(std::move(*splat));
     NovelView view{Image<std::uint16_t>(camera_.width, camera_.height, 3),
@@ -129,11 +128,10 @@ class Renderer {
     Look look{Sight::kOutside, source.camera.project(point)};
     if (!(look.place.z() > 0)) return look;
     const double u = look.place.x(), v = look.place.y();
-    if (!(u > -0.5 && v > -0.5 && u < source.camera.width - 0.5 &&
-          v < source.camera.height - 0.5))
+    if (!(u > -0.5 && v > -0.5 && u < source.camera.width - 0.5 && v < source.camera.height - 0.5))
       return look;
-    const float there = source.inverse_depth(int(std::lround(std::abs(u))),
-                                             int(std::lround(std::abs(v))));
+    const float there =
+        source.inverse_depth(int(std::lround(std::abs(u))), int(std::lround(std::abs(v))));
     const float here = float(1 / look.place.z());
     if (std::abs(there - here) <= tolerance_)
       look.sight = Sight::kSees;
@@ -186,8 +184,9 @@ class Renderer {
       while (end < width && std::isnan(map(end, v))) ++end;
       const float left = u > 0 ? map(u - 1, v) : kNoEstimate;
       const float right = end < width ? map(end, v) : kNoEstimate;
-      const float behind = std::isnan(left) ? right : std::isnan(right) ? left
-                                                                        : std::min(left, right);
+      const float behind = std::isnan(left)    ? right
+                           : std::isnan(right) ? left
+                                               : std::min(left, right);
       for (; u < end; ++u) map(u, v) = behind;
     }
   }
@@ -216,8 +215,9 @@ class Renderer {
     const double angle = std::atan2(there.cross(here).norm(), there.dot(here));
     const double scale = (there.norm() / source.camera.focal_u) / (here.norm() / camera_.focal_u);
     const double coarser = std::max(0.0, std::log2(scale));
-    const double margin_u = std::min(look.place.x() + 0.5, source.camera.width - 0.5 - look.place.x()) /
-                            (blend.border * source.camera.width);
+    const double margin_u =
+        std::min(look.place.x() + 0.5, source.camera.width - 0.5 - look.place.x()) /
+        (blend.border * source.camera.width);
     const double margin_v =
         std::min(look.place.y() + 0.5, source.camera.height - 0.5 - look.place.y()) /
         (blend.border * source.camera.height);
@@ -255,10 +255,11 @@ class Renderer {
       }
     } else {
       std::sort(begin, end, [](const Part& a, const Part& b) { return a.penalty < b.penalty; });
-      // The first view that is left out sets the penalty that counts nothing, so that weights change
-      // smoothly.
+      // The first view that is left out sets the penalty that counts nothing, so that weights
+      // change smoothly.
       const int taken = std::min(count, options_.blend.most_views);
-      const double none = taken < count ? parts[taken].penalty : 2 * parts[taken - 1].penalty + 1e-9;
+      const double none =
+          taken < count ? parts[taken].penalty : 2 * parts[taken - 1].penalty + 1e-9;
       for (int i = 0; i < taken; ++i) {
         const double weight = (1 - parts[i].penalty / none) / (parts[i].penalty + 1e-6) + 1e-9;
         for (int c = 0; c < 3; ++c) sum[c] += weight * parts[i].colour[c];
@@ -282,9 +283,9 @@ class Renderer {
 NovelView render_view(const Camera& camera, std::span<const SourceView> sources, int bit_depth,
                       const NovelViewOptions& options, const RunControl& control) {
   if (sources.empty() || sources.size() > kMostSources)
-    throw Error(ErrorCode::kInvalidArgument,
-                "a novel view is made of 1 … " + std::to_string(kMostSources) + " views, not of " +
-                    std::to_string(sources.size()));
+    throw Error(ErrorCode::kInvalidArgument, "a novel view is made of 1 … " +
+                                                 std::to_string(kMostSources) + " views, not of " +
+                                                 std::to_string(sources.size()));
   if (options.blend.most_views < 1)
     throw Error(ErrorCode::kInvalidArgument, "a pixel needs one view or more to be mixed of");
   for (const SourceView& source : sources)
@@ -295,8 +296,8 @@ NovelView render_view(const Camera& camera, std::span<const SourceView> sources,
   return Renderer(camera, sources, bit_depth, options).run(control);
 }
 
-std::vector<int> nearest_cameras(const std::vector<Camera>& cameras, const Camera& camera,
-                                 int most, int exclude) {
+std::vector<int> nearest_cameras(const std::vector<Camera>& cameras, const Camera& camera, int most,
+                                 int exclude) {
   std::vector<double> distances;
   for (const Camera& other : cameras)
     distances.push_back((other.position() - camera.position()).norm());
@@ -325,8 +326,7 @@ Camera between(const Camera& a, const Camera& b, double part) {
   camera.centre_v = mix(a.centre_v, b.centre_v);
   const Eigen::Quaterniond from(a.rotation), to(b.rotation);
   camera.rotation = from.slerp(part, to).toRotationMatrix();
-  camera.translation =
-      -camera.rotation * ((1 - part) * a.position() + part * b.position());
+  camera.translation = -camera.rotation * ((1 - part) * a.position() + part * b.position());
   return camera;
 }
 

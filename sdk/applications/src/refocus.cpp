@@ -26,8 +26,9 @@ class LightAt {
       return false;
     const int u0 = std::min(int(u), std::max(0, picture_.width() - 2));
     const int v0 = std::min(int(v), std::max(0, picture_.height() - 2));
-    const float part[2][2] = {{float((1 - (u - u0)) * (1 - (v - v0))), float((u - u0) * (1 - (v - v0)))},
-                              {float((1 - (u - u0)) * (v - v0)), float((u - u0) * (v - v0))}};
+    const float part[2][2] = {
+        {float((1 - (u - u0)) * (1 - (v - v0))), float((u - u0) * (1 - (v - v0)))},
+        {float((1 - (u - u0)) * (v - v0)), float((u - u0) * (v - v0))}};
     std::array<float, 3> light{};
     for (int j = 0; j < 2; ++j)
       for (int i = 0; i < 2; ++i) {
@@ -59,10 +60,10 @@ Image<std::uint16_t> refocus(const LightField& light_field, int view, FocalPlane
   for (Camera& camera : geometry.cameras) camera.inverse_depth = InverseDepthRange{0, 1};
   const AnySampler sampler = make_sampler(geometry);
 
-  const int width = light_field.cameras.empty() ? light_field.width
-                                                : light_field.cameras[view].width;
-  const int height = light_field.cameras.empty() ? light_field.height
-                                                 : light_field.cameras[view].height;
+  const int width =
+      light_field.cameras.empty() ? light_field.width : light_field.cameras[view].width;
+  const int height =
+      light_field.cameras.empty() ? light_field.height : light_field.cameras[view].height;
   struct Sum {
     std::array<float, 3> light{};
     int views = 0;

@@ -45,8 +45,8 @@ FloatMap soft_matte(const Mask& mask, const Image<std::uint16_t>& picture, int b
   hard.convertTo(opacity, CV_32F);
   cv::ximgproc::guidedFilter(guide, opacity, filtered, options.radius,
                              options.contrast * options.contrast);
-  const cv::Mat window =
-      cv::getStructuringElement(cv::MORPH_ELLIPSE, {2 * options.radius + 1, 2 * options.radius + 1});
+  const cv::Mat window = cv::getStructuringElement(
+      cv::MORPH_ELLIPSE, {2 * options.radius + 1, 2 * options.radius + 1});
   cv::Mat grown, shrunk;
   cv::dilate(hard, grown, window);
   cv::erode(hard, shrunk, window);

@@ -117,9 +117,8 @@ LightField without(LightField light_field, const std::vector<int>& views) {
     if (!light_field.cameras.empty()) rest.cameras.push_back(light_field.cameras[i]);
   }
   if (kept.size() < 2)
-    throw Error(ErrorCode::kInvalidArgument,
-                "--without: two views or more must be left of " +
-                    std::to_string(light_field.num_views()));
+    throw Error(ErrorCode::kInvalidArgument, "--without: two views or more must be left of " +
+                                                 std::to_string(light_field.num_views()));
   rest.pixels = pictures_of(std::move(light_field), std::move(kept));
   return rest;
 }

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "gigaray/parallel.h"
 #include "gigaray/light_field.h"
+#include "gigaray/parallel.h"
 #include "synthetic_noise.h"
 #include "synthetic_options.h"
 #include "synthetic_scene.h"

@@ -59,10 +59,9 @@ Decision Reconstruction::decision(int view_idx, int u, int v) const {
   if (level == 0 || decision.view < 0) return decision;
   const LevelState& state = impl.levels[level];
   Search search;
-  state.search.read(
-      decision.v,
-      (active_index(decision.view) * state.shape.width + decision.u) * sizeof(Search),
-      sizeof(Search), &search);
+  state.search.read(decision.v,
+                    (active_index(decision.view) * state.shape.width + decision.u) * sizeof(Search),
+                    sizeof(Search), &search);
   if (std::isnan(search.low)) return decision;
   const HypothesisBounds bounds = bounds_of(search, impl.hypotheses);
   decision.bounds = {impl.disparity_of(decision.view, float(impl.hypotheses.value(bounds.first))),

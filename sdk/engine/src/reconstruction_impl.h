@@ -14,7 +14,7 @@ namespace gigaray {
 
 struct Reconstruction::Impl {
   DepthOptions options;
-  HypothesisRange hypotheses;   ///< as the engine steps through them
+  HypothesisRange hypotheses;  ///< as the engine steps through them
   std::optional<AnySampler> sampler;
   std::vector<Camera> cameras;  ///< unstructured: with the range of each
   RowStore mask;                ///< Pipeline::mask()

@@ -10,8 +10,8 @@
 
 #include "bytes.h"
 #include "difference_planes.h"
-#include "range_coder.h"
 #include "gigaray/sparse_coding.h"
+#include "range_coder.h"
 
 namespace gigaray {
 namespace {
@@ -92,13 +92,13 @@ std::string encode_difference(const Image<std::uint16_t>& picture,
     for (int v = 0; v < height; ++v)
       for (int u = 0; u < width; ++u) {
         const std::int32_t value = picture(u, v, planes.component(channel));
-        const std::int32_t predicted = planes.predict(channel, u, v, weights[channel][planes.roughness(channel, u, v)]);
+        const std::int32_t predicted =
+            planes.predict(channel, u, v, weights[channel][planes.roughness(channel, u, v)]);
         const std::int32_t steps = quantised(value - predicted, max_error);
         const int context = planes.context(channel, u, v);
-        models[channel * kContexts + context].put(std::uint32_t(zigzag(steps)),
-                                                  noisy_bits(context), coder);
-        const std::int32_t restored =
-            std::clamp(predicted + steps * (2 * max_error + 1), 0, most);
+        models[channel * kContexts + context].put(std::uint32_t(zigzag(steps)), noisy_bits(context),
+                                                  coder);
+        const std::int32_t restored = std::clamp(predicted + steps * (2 * max_error + 1), 0, most);
         planes.set(channel, u, v, restored, steps);
       }
   return out.take() + coder.finish();
@@ -124,13 +124,14 @@ Image<std::uint16_t> decode_difference(std::string_view bytes, const Image<std::
   for (int channel = 0; channel < kChannels; ++channel)
     for (int v = 0; v < height; ++v)
       for (int u = 0; u < width; ++u) {
-        const std::int32_t predicted = planes.predict(channel, u, v, weights[channel][planes.roughness(channel, u, v)]);
+        const std::int32_t predicted =
+            planes.predict(channel, u, v, weights[channel][planes.roughness(channel, u, v)]);
         const int context = planes.context(channel, u, v);
         const std::int64_t steps =
             unzigzag(models[channel * kContexts + context].get(noisy_bits(context), coder));
         if (std::abs(steps) > most) damaged("a difference is too large");
-        const std::int64_t restored = std::clamp<std::int64_t>(
-            predicted + steps * (2 * max_error + 1), 0, most);
+        const std::int64_t restored =
+            std::clamp<std::int64_t>(predicted + steps * (2 * max_error + 1), 0, most);
         planes.set(channel, u, v, std::int32_t(restored), std::int32_t(steps));
         picture(u, v, planes.component(channel)) = std::uint16_t(restored);
       }

@@ -17,9 +17,8 @@ DifferencePlanes::DifferencePlanes(const Image<std::uint16_t>& drawn, int bit_de
     plane.miss.resize(size);
     for (int v = -kPad; v < drawn.height() + kPad; ++v)
       for (int u = -kPad; u < drawn.width() + kPad; ++u)
-        plane.drawn[at(u, v)] =
-            drawn(std::clamp(u, 0, drawn.width() - 1), std::clamp(v, 0, drawn.height() - 1),
-                  component(channel));
+        plane.drawn[at(u, v)] = drawn(std::clamp(u, 0, drawn.width() - 1),
+                                      std::clamp(v, 0, drawn.height() - 1), component(channel));
     plane.value = plane.drawn;
   }
 }
@@ -49,7 +48,8 @@ std::int32_t DifferencePlanes::predict(int channel, int u, int v, const Weights&
   const auto values = features(channel, u, v);
   std::int64_t sum = std::int64_t(1) << (kWeightBits - 1);
   for (int i = 0; i < kMostFeatures; ++i) sum += std::int64_t(weights[i]) * values[i];
-  return std::int32_t(std::clamp<std::int64_t>(drawn(channel, u, v) + (sum >> kWeightBits), 0, most_));
+  return std::int32_t(
+      std::clamp<std::int64_t>(drawn(channel, u, v) + (sum >> kWeightBits), 0, most_));
 }
 
 int DifferencePlanes::roughness(int channel, int u, int v) const {

@@ -60,8 +60,8 @@ class DifferencePlanes {
 
   struct Plane {
     std::vector<std::int32_t> drawn;
-    std::vector<std::int32_t> value;       ///< of the picture; as drawn where not known yet
-    std::vector<std::int32_t> miss;        ///< |value − prediction|
+    std::vector<std::int32_t> value;  ///< of the picture; as drawn where not known yet
+    std::vector<std::int32_t> miss;   ///< |value − prediction|
   };
   int stride_ = 0;
   std::int32_t most_ = 0;

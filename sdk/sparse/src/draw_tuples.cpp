@@ -37,8 +37,7 @@ void for_each_pixel_near(const SparseShape& shape, RowRange rows, TuplePlace pla
       const std::int64_t u = u0 + i;
       const int weight_u = i ? part_u : kPlaceOne - part_u;
       if (weight_u == 0 || u < 0 || u >= shape.width) continue;
-      visit(int(u), int(v), weight_u * weight_v,
-            std::min(weight_u, weight_v) >= kPlaceOne / 4);
+      visit(int(u), int(v), weight_u * weight_v, std::min(weight_u, weight_v) >= kPlaceOne / 4);
     }
   }
 }
@@ -67,9 +66,9 @@ SparseShape sparse_shape(const LightField& light_field, int bit_depth, int band_
         {std::llround(view.s * kPositionScale), std::llround(view.t * kPositionScale)});
   double extent = 1;
   for (const auto axis : {&View::s, &View::t}) {
-    const auto [least, most] = std::minmax_element(
-        light_field.views.begin(), light_field.views.end(),
-        [&](const View& a, const View& b) { return a.*axis < b.*axis; });
+    const auto [least, most] =
+        std::minmax_element(light_field.views.begin(), light_field.views.end(),
+                            [&](const View& a, const View& b) { return a.*axis < b.*axis; });
     extent = std::max(extent, (*most).*axis - (*least).*axis);
   }
   // Half a step times the extent is 1/64 px at most.
@@ -101,7 +100,8 @@ DrawnRows draw_tuples(const SparseShape& shape, const SparseTuples& tuples, int 
   const std::vector<int> bands = bands_reaching(shape, tuples, view, rows);
   const auto for_each_place = [&](auto visit) {
     for (const int band : bands)
-      for (const SparseTuple& tuple : tuples[band].tuples) visit(tuple, place_in(shape, tuple, view));
+      for (const SparseTuple& tuple : tuples[band].tuples)
+        visit(tuple, place_in(shape, tuple, view));
   };
 
   for_each_place([&](const SparseTuple& tuple, TuplePlace place) {

@@ -45,7 +45,7 @@ class RangeEncoder {
   std::string bytes_;
   std::uint64_t low_ = 0;
   std::uint32_t range_ = 0xffffffff;
-  std::uint8_t held_ = 0;    ///< byte that a carry may still change,
+  std::uint8_t held_ = 0;     ///< byte that a carry may still change,
   std::size_t num_held_ = 1;  ///< and 0xff bytes behind it
 };
 

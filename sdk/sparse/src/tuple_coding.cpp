@@ -76,7 +76,8 @@ TupleBand decode_tuples(const SparseShape& shape, int band, std::string_view byt
     const std::int64_t green = columns[kGreen].signed_number(4 * most_colour);
     tuple.colour[1] = colour(last.colour[1] + green);
     tuple.colour[0] = colour(last.colour[0] + green + columns[kRed].signed_number(4 * most_colour));
-    tuple.colour[2] = colour(last.colour[2] + green + columns[kBlue].signed_number(4 * most_colour));
+    tuple.colour[2] =
+        colour(last.colour[2] + green + columns[kBlue].signed_number(4 * most_colour));
     tuples.tuples.push_back(tuple);
     tuples.least_slope = std::min(tuples.least_slope, tuple.slope);
     tuples.largest_slope = std::max(tuples.largest_slope, tuple.slope);

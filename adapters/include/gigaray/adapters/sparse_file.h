@@ -36,8 +36,8 @@ struct SparseFileReport {
 /// Writes a light field as tuples Γ and differences ΔE, whole or not at all (docs/formats.md).
 /// disparity: of every view. Throws Error(kInvalidArgument) for options and for unstructured views,
 /// Error(kIo) when the place can't be written, what the pictures throw, kCancelled.
-SparseFileReport write_sparse_file(const std::filesystem::path& path,
-                                   const LightField& light_field, const DisparityOfView& disparity,
+SparseFileReport write_sparse_file(const std::filesystem::path& path, const LightField& light_field,
+                                   const DisparityOfView& disparity,
                                    const SparseFileOptions& options, const RunControl& control);
 
 /// A .grl file. Opening reads the directory alone; what is asked for is read when it is, the tuples

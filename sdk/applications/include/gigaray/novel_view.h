@@ -55,8 +55,8 @@ NovelView render_view(const Camera& camera, std::span<const SourceView> sources,
 
 /// Indices of the cameras that see what `camera` sees from nearest by, the best first: by distance,
 /// and by the angle between the directions. exclude: index to leave out, −1: none.
-std::vector<int> nearest_cameras(const std::vector<Camera>& cameras, const Camera& camera,
-                                 int most, int exclude = -1);
+std::vector<int> nearest_cameras(const std::vector<Camera>& cameras, const Camera& camera, int most,
+                                 int exclude = -1);
 
 /// Pose between two cameras: position and intrinsics linear, rotation along the shortest arc.
 /// part: 0 … 1

@@ -15,8 +15,8 @@ struct PictureQuality {
   double ssim = 0;
 };
 
-/// shown: 0 where `truth` shows nothing of the scene; only the others count, for the similarity those
-/// whose window has no such pixel. Empty: all.
+/// shown: 0 where `truth` shows nothing of the scene; only the others count, for the similarity
+/// those whose window has no such pixel. Empty: all.
 PictureQuality picture_quality(const Image<std::uint16_t>& picture,
                                const Image<std::uint16_t>& truth, int bit_depth,
                                const Mask& shown = {});

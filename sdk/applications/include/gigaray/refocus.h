@@ -19,9 +19,9 @@ struct FocalPlane {
 };
 
 /// The picture of a lens as wide as the rig (synthetic aperture, Isaksen et al. 2000; Levoy et al.
-/// 2004): for every pixel of `view` the mean, in linear light, of what the views see at its point of
-/// the focal plane; views whose picture does not have it don't count. Needs no depth. RGB (v, u, c)
-/// as encoded as the pictures. aperture: views within so many view steps have a part; infinite:
+/// 2004): for every pixel of `view` the mean, in linear light, of what the views see at its point
+/// of the focal plane; views whose picture does not have it don't count. Needs no depth. RGB (v, u,
+/// c) as encoded as the pictures. aperture: views within so many view steps have a part; infinite:
 /// all. Throws what the pictures throw, kCancelled.
 Image<std::uint16_t> refocus(const LightField& light_field, int view, FocalPlane plane,
                              double aperture, const RunControl& control);

@@ -21,8 +21,8 @@ struct ValueInterval {
 void segment(const FloatMap& map, ValueInterval interval, Mask& mask);
 
 struct MatteOptions {
-  int radius = 6;         ///< Half the width of the soft edge, px. 1 … 64
-  float contrast = 0.03f;  ///< Colour differences below it are the same material, [0, 1]. > 0
+  int radius = 6;          ///< Half the width of the soft edge, px. 1 … 64
+  float contrast = 0.01f;  ///< Colour differences below it are the same material, [0, 1]. > 0
 };
 
 /// The mask with soft edges: within `radius` of its edge the opacity follows the colours of the

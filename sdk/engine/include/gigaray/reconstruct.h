@@ -30,8 +30,8 @@ struct RayTuple {
 
 /// Depth of one view.
 struct ViewDepth {
-  /// (v, u), level-0 px per view step; unstructured: inverse depth 1/z in the view's camera, 1/scene
-  /// unit. NaN: no estimate
+  /// (v, u), level-0 px per view step; unstructured: inverse depth 1/z in the view's camera,
+  /// 1/scene unit. NaN: no estimate
   FloatMap disparity;
   /// (v, u); NaN: no estimate. auto: probability of being right within 0.07 px, calibration.h;
   /// paper: eq. 7, 0 and above.
@@ -60,7 +60,8 @@ struct BackendChoice {
 /// Where the estimate of a pixel comes from.
 struct Decision {
   int level = -1;  ///< Pyramid level that decided; −1: none did
-  /// View that it was found in, and the pixel of its level; −1: filled between the estimates around.
+  /// View that it was found in, and the pixel of its level; −1: filled between the estimates
+  /// around.
   int view = -1, u = -1, v = -1;
   float disparity = kNoEstimate;  ///< As found, before the final median; unit of ViewDepth
   /// What was searched there: a part of the range where estimates of finer levels bound it.

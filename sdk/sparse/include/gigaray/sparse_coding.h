@@ -17,8 +17,9 @@ namespace gigaray {
 std::string encode_tuples(const SparseShape& shape, int band, const TupleBand& tuples);
 TupleBand decode_tuples(const SparseShape& shape, int band, std::string_view bytes);
 
-/// The difference ΔE of some rows of a view: what makes `picture` out of `drawn`, both (v, u, c), RGB. What is decoded differs
-/// from the picture by max_error at most in every channel; 0: not at all.
+/// The difference ΔE of some rows of a view: what makes `picture` out of `drawn`, both (v, u, c),
+/// RGB. What is decoded differs from the picture by max_error at most in every channel; 0: not at
+/// all.
 std::string encode_difference(const Image<std::uint16_t>& picture,
                               const Image<std::uint16_t>& drawn, int bit_depth, int max_error);
 Image<std::uint16_t> decode_difference(std::string_view bytes, const Image<std::uint16_t>& drawn,

@@ -30,9 +30,9 @@ struct SparseTuple {
 struct SparseShape {
   int width = 0, height = 0;
   int bit_depth = 8;
-  int slope_bits = 0;     ///< Fraction bits of a slope, 0 … 20.
+  int slope_bits = 0;       ///< Fraction bits of a slope, 0 … 20.
   int slope_tolerance = 0;  ///< Slopes that differ by no more are one surface.
-  int band_rows = 0;      ///< Tuples are kept in bands of so many rows of their own view.
+  int band_rows = 0;        ///< Tuples are kept in bands of so many rows of their own view.
   struct Position {
     std::int64_t s = 0, t = 0;  ///< 2^-16 view steps
   };
@@ -65,8 +65,8 @@ using SparseTuples = std::vector<TupleBand>;
 struct DrawnRows {
   static constexpr std::int32_t kNone = std::numeric_limits<std::int32_t>::min();
   RowRange rows;
-  Image<std::int32_t> slope;     ///< (v − rows.begin, u); kNone where no tuple is seen
-  Image<std::uint16_t> colour;   ///< (v − rows.begin, u, c); 0 there
+  Image<std::int32_t> slope;    ///< (v − rows.begin, u); kNone where no tuple is seen
+  Image<std::uint16_t> colour;  ///< (v − rows.begin, u, c); 0 there
 };
 
 /// Bands whose tuples `rows` of a view can show, among the bands that `has_tuples`' slopes reach.
