@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The Gigaray authors
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -71,13 +72,24 @@ DisparityOfView computed(const Settings& settings, LightField& light_field,
 /// What `gigaray depth` wrote. It may have found another direction of travel than was assumed.
 DisparityOfView read(const Settings& settings, LightField& light_field) {
   const auto depth = std::make_shared<DepthResult>(settings.depth);
-  const int num_views = light_field.num_views();
-  light_field = depth->with_pictures(settings.run.input.input);
-  if (light_field.num_views() != num_views)
-    throw Error(ErrorCode::kBadInput,
-                fmt::format("{}: has depth for {} of {} views; all are needed",
-                            settings.depth.string(), light_field.num_views(), num_views));
-  return [depth](int view) { return depth->disparity(view); };
+  const LightField& geometry = depth->light_field();
+  if (geometry.width != light_field.width || geometry.height != light_field.height)
+    throw Error(
+        ErrorCode::kBadInput,
+        fmt::format("{}: its maps are {} × {}, the pictures {} × {}", settings.depth.string(),
+                    geometry.width, geometry.height, light_field.width, light_field.height));
+  std::vector<int> map_of_view;
+  for (View& view : light_field.views) {
+    const auto found = std::find_if(geometry.views.begin(), geometry.views.end(),
+                                    [&](const View& other) { return other.name == view.name; });
+    if (found == geometry.views.end())
+      throw Error(ErrorCode::kBadInput,
+                  fmt::format("{}: has no depth of view {}; that of all {} views is needed",
+                              settings.depth.string(), view.name, light_field.num_views()));
+    view = *found;
+    map_of_view.push_back(int(found - geometry.views.begin()));
+  }
+  return [depth, map_of_view](int view) { return depth->disparity(map_of_view[view]); };
 }
 
 void run(const Settings& settings, const RunControl& control) {

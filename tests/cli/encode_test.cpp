@@ -63,11 +63,11 @@ TEST_F(EncodeCommand, AFileIsALightField) {
   encode();
   const Result info = run("info made.grl --json");
   ASSERT_EQ(info.exit_code, 0) << info.err;
-  EXPECT_EQ(json::parse(info.out).at("num_views"), 5);
+  EXPECT_EQ(json::parse(info.out).at("views").size(), 5u);
   // The same depth from the file as from the folder.
   ASSERT_EQ(run("depth made -o a --views centre").exit_code, 0);
   ASSERT_EQ(run("depth made.grl -o b --views centre").exit_code, 0);
-  EXPECT_EQ(text_of("a/disparity.pfm"), text_of("b/disparity.pfm"));
+  EXPECT_TRUE(text_of("a/disparity.pfm") == text_of("b/disparity.pfm"));
 }
 
 TEST_F(EncodeCommand, SomeViewsAndRowsAndDepth) {
@@ -75,20 +75,21 @@ TEST_F(EncodeCommand, SomeViewsAndRowsAndDepth) {
   ASSERT_EQ(run("decode made.grl -o all --depth").exit_code, 0);
   const Result result = run("decode made.grl -o part --views 1,3 --rows 10 21 --depth");
   ASSERT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_EQ(names_in("part"), (std::set<std::string>{"view_01", "view_01.png", "view_03",
-                                                     "view_03.png", "gigaray.json"}));
-  const cv::Mat whole = cv::imread((folder / "made/view_03.png").string());
-  const cv::Mat part = cv::imread((folder / "part/view_03.png").string());
+  EXPECT_EQ(names_in("part"), (std::set<std::string>{"view_001", "view_001.png", "view_003",
+                                                     "view_003.png", "gigaray.json"}));
+  const cv::Mat whole = cv::imread((folder / "made/view_003.png").string());
+  const cv::Mat part = cv::imread((folder / "part/view_003.png").string());
   ASSERT_EQ(part.rows, 11);
   EXPECT_EQ(cv::norm(whole.rowRange(10, 21), part, cv::NORM_INF), 0);
-  const FloatMap disparity = read_pfm(folder / "all/view_03/disparity.pfm");
-  const FloatMap some = read_pfm(folder / "part/view_03/disparity.pfm");
-  const FloatMap truth = read_pfm(folder / "made/truth/view_03.pfm");
+  const FloatMap disparity = read_pfm(folder / "all/view_003/disparity.pfm");
+  const FloatMap some = read_pfm(folder / "part/view_003/disparity.pfm");
+  const FloatMap truth = read_pfm(folder / "made/truth/view_003.pfm");
   int good = 0;
   for (int v = 0; v < 37; ++v)
     for (int u = 0; u < 48; ++u) {
       good += std::abs(disparity(u, v) - truth(u, v)) < 0.1;
-      if (v >= 10 && v < 21) EXPECT_EQ(some(u, v - 10), disparity(u, v));
+      const bool is_in_part = v >= 10 && v < 21;
+      EXPECT_TRUE(!is_in_part || some(u, v - 10) == disparity(u, v));
     }
   EXPECT_GT(good, 0.85 * 48 * 37);
 }
@@ -108,10 +109,10 @@ TEST_F(EncodeCommand, TakesDepthThatIsThere) {
   encode("--depth depth");
   const std::string bytes = text_of("made.grl");
   encode();
-  EXPECT_EQ(text_of("made.grl"), bytes);
+  EXPECT_TRUE(text_of("made.grl") == bytes);
 
   ASSERT_EQ(run("depth made -o some --views 0,1").exit_code, 0);
-  expect_refusal("encode made -o x.grl --depth some", 1, "2 of 5 views");
+  expect_refusal("encode made -o x.grl --depth some", 1, "no depth of view view_002");
   expect_refusal("encode made -o x.grl --depth made", 1, "no result of `gigaray depth`");
   expect_refusal("encode made -o x.grl --depth nowhere", 1, "nowhere");
 }

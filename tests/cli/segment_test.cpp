@@ -27,7 +27,7 @@ class SegmentCommand : public ProgramTest {
 };
 
 TEST_F(SegmentCommand, MasksOfAllViewsAreThoseOfTheMaps) {
-  const FloatMap first = read_pfm(folder / "depth/view_00/disparity.pfm");
+  const FloatMap first = read_pfm(folder / "depth/view_000/disparity.pfm");
   std::vector<float> sorted(first.begin(), first.end());
   std::sort(sorted.begin(), sorted.end());
   const float near = sorted.back(), far = sorted[sorted.size() / 2];
@@ -35,7 +35,7 @@ TEST_F(SegmentCommand, MasksOfAllViewsAreThoseOfTheMaps) {
                             " --far " + std::to_string(far));
   ASSERT_EQ(result.exit_code, 0) << result.err;
   for (int view = 0; view < 5; ++view) {
-    const std::string name = "view_0" + std::to_string(view);
+    const std::string name = "view_00" + std::to_string(view);
     const FloatMap map = read_pfm(folder / "depth" / name / "disparity.pfm");
     const cv::Mat found = mask("masks/" + name + "/mask.png");
     ASSERT_EQ(found.type(), CV_8U);
@@ -66,9 +66,9 @@ TEST_F(SegmentCommand, SoftEdgesAsPngAndExr) {
   const Result result =
       run("segment depth -o masks --near 99 --far 0.6 --soft --radius 3 --format exr");
   ASSERT_EQ(result.exit_code, 0) << result.err;
-  const cv::Mat matte = mask("masks/view_02/matte.png");
+  const cv::Mat matte = mask("masks/view_002/matte.png");
   ASSERT_EQ(matte.type(), CV_16U);
-  const FloatMap exr = read_exr(folder / "masks/view_02/matte.exr");
+  const FloatMap exr = read_exr(folder / "masks/view_002/matte.exr");
   int soft = 0;
   for (int v = 0; v < 37; ++v)
     for (int u = 0; u < 48; ++u) {
@@ -94,7 +94,7 @@ TEST_F(SegmentCommand, DistancesNeedARig) {
   // The same pictures without a rig.
   std::filesystem::create_directory(folder / "bare");
   for (int i = 0; i < 5; ++i) {
-    const std::string name = "view_0" + std::to_string(i) + ".png";
+    const std::string name = "view_00" + std::to_string(i) + ".png";
     std::filesystem::copy(folder / "made" / name, folder / "bare" / name);
   }
   ASSERT_EQ(run("depth bare -o bare_depth --views centre").exit_code, 0);
@@ -102,12 +102,13 @@ TEST_F(SegmentCommand, DistancesNeedARig) {
 }
 
 TEST_F(SegmentCommand, MissingAndDamagedMapsAreNamed) {
-  std::filesystem::remove(folder / "depth/view_03/disparity.pfm");
-  expect_refusal("segment depth -o x --near 2 --far 1", 1, "view_03/disparity.pfm");
-  std::filesystem::copy(folder / "made/truth/view_03.pfm", folder / "depth/view_03/disparity.pfm");
+  std::filesystem::remove(folder / "depth/view_003/disparity.pfm");
+  expect_refusal("segment depth -o x --near 2 --far 1", 1, "view_003/disparity.pfm");
+  std::filesystem::copy(folder / "made/truth/view_003.pfm",
+                        folder / "depth/view_003/disparity.pfm");
   EXPECT_EQ(run("segment depth -o x --near 2 --far 1").exit_code, 0);
-  std::filesystem::resize_file(folder / "depth/view_03/disparity.pfm", 100);
-  expect_refusal("segment depth -o y --near 2 --far 1", 1, "view_03/disparity.pfm");
+  std::filesystem::resize_file(folder / "depth/view_003/disparity.pfm", 100);
+  expect_refusal("segment depth -o y --near 2 --far 1", 1, "view_003/disparity.pfm");
   // Soft edges need the pictures.
   std::filesystem::rename(folder / "made", folder / "moved");
   expect_refusal("segment depth -o y --near 2 --far 1 --soft --views 0", 1, "--input");

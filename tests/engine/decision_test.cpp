@@ -48,11 +48,13 @@ TEST(Decision, NamesTheViewThatFoundIt) {
   Reconstruction result = run(field.light_field, "auto");
   const int centre = centre_view(field.light_field);
   std::set<int> deciders;
-  int unnamed = 0;
+  int unnamed = 0, centre_pixels = 0, own_decisions = 0;
   for (int v = 1; v < 61; v += 3)
     for (int u = 0; u < 93; u += 3) {
       const Decision own = result.decision(centre, u, v);
-      if (own.level == 0 && own.view >= 0) EXPECT_EQ(own.view, centre);
+      // What the centre left open another view may have decided.
+      ++centre_pixels;
+      own_decisions += own.view == centre;
       const Decision other = result.decision(0, u, v);
       if (other.view < 0) {
         ++unnamed;
@@ -65,13 +67,17 @@ TEST(Decision, NamesTheViewThatFoundIt) {
       EXPECT_NEAR(other.u + s * other.disparity, u, 0.76);
       EXPECT_EQ(other.v, v);
     }
+  EXPECT_GT(own_decisions, 0.9 * centre_pixels);
   EXPECT_TRUE(deciders.contains(centre));
   EXPECT_GT(deciders.size(), 1u);  // what the centre does not see
   EXPECT_LT(unnamed, 40);
 }
 
 TEST(Decision, CoarserLevelsSearchBetweenFinerEstimates) {
-  Reconstruction result = run(two_layers().light_field, "paper");
+  // A patch without texture: its edges decide on level 0, its inside on coarser ones.
+  const AnalyticField field =
+      analytic_field(93, 61, row_of_views(7), {{-0.5, 1}, {1.3, 2, 0, 25, 68, 10, 50}});
+  Reconstruction result = run(field.light_field, "paper");
   const int centre = 3;
   int bounded = 0;
   for (int v = 0; v < 61; ++v)

@@ -86,6 +86,12 @@ class Renderer {
         options_(options),
         tolerance_(float(options.tolerance)) {
     if (!(tolerance_ > 0)) tolerance_ = 0.01f * span_of_sources();
+    for (const SourceView& source : sources_)
+      votes_.push_back((source.camera.position() - camera_.position()).norm());
+    std::vector<double> sorted = votes_;
+    std::nth_element(sorted.begin(), sorted.begin() + sorted.size() / 2, sorted.end());
+    const double usual = std::max(sorted[sorted.size() / 2], 1e-12);
+    for (double& vote : votes_) vote = 1 / (vote / usual + 0.1);
   }
 
   NovelView run(const RunControl& control) {
@@ -140,7 +146,7 @@ class Renderer {
     return look;
   }
 
-  /// Inverse depth of the nearest surface that more sources see than see through.
+  /// Inverse depth of the nearest surface that more votes of the sources see than see through.
   float front_of(int u, int v) const {
     std::array<float, kMostSources> candidates;
     int count = 0;
@@ -148,15 +154,15 @@ class Renderer {
       if (const float w = splat(u, v); !std::isnan(w)) candidates[count++] = w;
     std::sort(candidates.begin(), candidates.begin() + count, std::greater<>());
     float best = kNoEstimate;
-    int best_lead = std::numeric_limits<int>::min();
+    double best_lead = std::numeric_limits<double>::lowest();
     for (int i = 0; i < count; ++i) {
       // Candidates of one surface stand for each other.
       if (i > 0 && candidates[i - 1] - candidates[i] < 0.25f * tolerance_) continue;
       const Eigen::Vector3d point = camera_.back_project(u, v, 1 / candidates[i]);
-      int lead = 0;
-      for (const SourceView& source : sources_) {
-        const Sight sight = look(source, point).sight;
-        lead += sight == Sight::kSees ? 1 : sight == Sight::kSeesThrough ? -1 : 0;
+      double lead = 0;
+      for (std::size_t k = 0; k < sources_.size(); ++k) {
+        const Sight sight = look(sources_[k], point).sight;
+        lead += sight == Sight::kSees ? votes_[k] : sight == Sight::kSeesThrough ? -votes_[k] : 0;
       }
       if (lead > best_lead) {
         best = candidates[i];
@@ -275,6 +281,7 @@ class Renderer {
   double most_;
   const NovelViewOptions& options_;
   float tolerance_;
+  std::vector<double> votes_;  ///< of the sources: near ones count more
   std::vector<SplatMap> splats_;
 };
 

@@ -11,6 +11,8 @@ namespace gigaray {
 namespace {
 
 constexpr double kPositionScale = 1 << 16;
+/// Such places and slopes leave room in 64 bits.
+constexpr double kFarthest = 1 << 14;  // view steps
 
 /// Rows that a tuple may be away from those of its band in another view.
 struct Reach {
@@ -49,7 +51,8 @@ double SparseShape::disparity(std::int32_t slope) const {
 }
 
 std::int32_t SparseShape::slope(double disparity) const {
-  return std::int32_t(std::lround(std::ldexp(disparity, slope_bits)));
+  return std::int32_t(
+      std::lround(std::clamp(std::ldexp(disparity, slope_bits), -kMostSlope, kMostSlope)));
 }
 
 SparseShape sparse_shape(const LightField& light_field, int bit_depth, int band_rows) {
@@ -61,9 +64,14 @@ SparseShape sparse_shape(const LightField& light_field, int bit_depth, int band_
   shape.height = light_field.height;
   shape.bit_depth = bit_depth;
   shape.band_rows = band_rows;
-  for (const View& view : light_field.views)
+  for (const View& view : light_field.views) {
+    if (!(std::abs(view.s) <= kFarthest && std::abs(view.t) <= kFarthest))
+      throw Error(ErrorCode::kInvalidArgument,
+                  "view " + view.name + " stands too far away for a sparse light field: " +
+                      std::to_string(int(kFarthest)) + " view steps are the most");
     shape.positions.push_back(
         {std::llround(view.s * kPositionScale), std::llround(view.t * kPositionScale)});
+  }
   double extent = 1;
   for (const auto axis : {&View::s, &View::t}) {
     const auto [least, most] =

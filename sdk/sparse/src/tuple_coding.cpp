@@ -57,7 +57,7 @@ TupleBand decode_tuples(const SparseShape& shape, int band, std::string_view byt
     if (value < 0 || value > most_colour) damaged("a tuple has no colour");
     return std::uint16_t(value);
   };
-  constexpr std::int64_t kMostSlope = std::int64_t(1) << 30;
+  constexpr auto kMostSlope = std::int64_t(SparseShape::kMostSlope);
   for (std::size_t i = 0; i < count; ++i) {
     SparseTuple tuple;
     const std::int64_t step = columns[kSlope].signed_number(2 * kMostSlope);

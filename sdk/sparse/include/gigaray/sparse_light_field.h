@@ -42,12 +42,14 @@ struct SparseShape {
   RowRange band(int index) const {
     return {index * band_rows, std::min(height, (index + 1) * band_rows)};
   }
+  static constexpr double kMostSlope = 1 << 30;
   double disparity(std::int32_t slope) const;
   std::int32_t slope(double disparity) const;  ///< the nearest
 };
 
 /// The shape for a light field: slopes fine enough that a point is drawn within 1/64 px of its
-/// place in every view. Looks at no pixel. Throws Error(kInvalidArgument) for unstructured views.
+/// place in every view. Looks at no pixel. Throws Error(kInvalidArgument) for unstructured views
+/// and for views more than 2^14 view steps away.
 SparseShape sparse_shape(const LightField& light_field, int bit_depth, int band_rows);
 
 /// The tuples of one band of rows, in order of rising disparity, that is of decreasing slope m of
