@@ -9,24 +9,31 @@
 #include "gigaray/parallel.h"
 
 namespace gigaray {
+namespace {
+
+/// Values in, 0 or 1 out. By value: bytes that are written may alias anything else.
+void segment_part(const float* values, std::uint8_t* inside, std::size_t count, float least,
+                  float most) {
+  for (std::size_t i = 0; i < count; ++i)
+    inside[i] = std::uint8_t((values[i] >= least) & (values[i] <= most));
+}
+
+}  // namespace
 
 void segment(const FloatMap& map, ValueInterval interval, Mask& mask) {
   if (mask.width() != map.width() || mask.height() != map.height())
     mask = Mask(map.width(), map.height());
-  const float* values = map.data();
-  std::uint8_t* inside = mask.data();
-  const auto segment_part = [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i)
-      inside[i] = (values[i] >= interval.least) & (values[i] <= interval.most);
-  };
   // Threads cost more than they bring for a small map.
-  constexpr std::size_t kPart = std::size_t(1) << 20;
-  const std::size_t parts = map.size() / kPart + 1;
-  if (parts == 1) return segment_part(0, map.size());
-  parallel_for(
-      int(parts),
-      [&](int part) { segment_part(part * kPart, std::min(map.size(), (part + 1) * kPart)); },
-      [](int) {});
+  constexpr std::size_t kPart = std::size_t(1) << 22;
+  const auto segment_from = [&](std::size_t begin) {
+    segment_part(map.data() + begin, mask.data() + begin, std::min(map.size() - begin, kPart),
+                 interval.least, interval.most);
+  };
+  const std::size_t parts = (map.size() + kPart - 1) / kPart;
+  if (parts == 1) return segment_from(0);
+  if (parts > 1)
+    parallel_for(
+        int(parts), [&](int part) { segment_from(std::size_t(part) * kPart); }, [](int) {});
 }
 
 FloatMap soft_matte(const Mask& mask, const Image<std::uint16_t>& picture, int bit_depth,
