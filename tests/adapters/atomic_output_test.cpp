@@ -92,9 +92,20 @@ TEST_F(AtomicOutput, FileIsReplacedWhole) {
   EXPECT_EQ(names(), std::set<std::string>{"file"});
 }
 
-TEST_F(AtomicOutput, TemporaryFileIsRemovedWhenTheNameIsTaken) {
+TEST_F(AtomicOutput, FolderIsNoNameForAFile) {
   fs::create_directory(folder / "taken");
-  expect_error(ErrorCode::kIo, "taken", [&] { write_file_atomically(folder / "taken", "x"); });
+  expect_error(ErrorCode::kInvalidArgument, "taken: is a folder",
+               [&] { write_file_atomically(folder / "taken", "x"); });
+  EXPECT_EQ(names(), std::set<std::string>{"taken"});
+}
+
+TEST_F(AtomicOutput, TemporaryFileIsRemovedWhenTheNameIsTakenMeanwhile) {
+  expect_error(ErrorCode::kIo, "taken", [&] {
+    AtomicFile file(folder / "taken");
+    file.write("x");
+    fs::create_directory(folder / "taken");
+    file.commit();
+  });
   EXPECT_EQ(names(), std::set<std::string>{"taken"});
 }
 

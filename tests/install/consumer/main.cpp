@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Gigaray authors
 //
-// A project outside: makes a light field in memory, computes depth, writes and reads a map.
+// A project outside: makes a light field in memory, computes depth, writes and reads it as a sparse
+// light field, masks what is near.
 #include <cmath>
 #include <cstdio>
 #include <vector>
 
-#include "gigaray/adapters/maps.h"
+#include "gigaray/adapters/sparse_file.h"
 #include "gigaray/reconstruct.h"
+#include "gigaray/segmentation.h"
 
 namespace {
 
@@ -40,21 +42,29 @@ int main(int argc, char** argv) {
     light_field.views.push_back({"view" + std::to_string(i), s, 0});
     pictures.push_back(picture_at(s));
   }
-  light_field.pixels = gigaray::pixels_in_memory(std::move(pictures), 8);
+  light_field.pixels = gigaray::pixels_in_memory(pictures, 8);
 
   try {
     gigaray::DepthOptions options = gigaray::auto_options();
     options.disparity = {0.5, 2.5};
+    const gigaray::RunControl control;
+    auto result = gigaray::reconstruct(light_field, options, {}, control);
+    gigaray::write_sparse_file(
+        argv[1], light_field, [&](int view) { return result.view(view).disparity; }, {}, control);
+
+    const gigaray::SparseFile file(argv[1]);
     const int centre = gigaray::centre_view(light_field);
-    options.views = {centre};
-    auto result = gigaray::reconstruct(light_field, options, {}, gigaray::RunControl{});
-    gigaray::write_pfm(argv[1], result.view(centre).disparity);
+    const bool same = gigaray::read_view(file.light_field(), centre) == pictures[centre];
+    const gigaray::FloatMap disparity = file.disparity(centre, {0, kHeight});
+    gigaray::Mask mask;
+    gigaray::segment(disparity, {1.4f, 1.6f}, mask);
+    const float found = disparity(kWidth / 2, kHeight / 2);
+    std::printf("disparity %.3f, truth %.3f; picture %s; mask %d\n", found, kDisparity,
+                same ? "restored" : "differs", mask(kWidth / 2, kHeight / 2));
+    return std::abs(found - kDisparity) < 0.05 && same && mask(kWidth / 2, kHeight / 2) == 1 ? 0
+                                                                                             : 1;
   } catch (const gigaray::Error& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return 1;
   }
-  const gigaray::FloatMap disparity = gigaray::read_pfm(argv[1]);
-  const float found = disparity(kWidth / 2, kHeight / 2);
-  std::printf("disparity %.3f, truth %.3f\n", found, kDisparity);
-  return std::abs(found - kDisparity) < 0.05 ? 0 : 1;
 }
