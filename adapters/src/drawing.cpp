@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <numeric>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
@@ -30,11 +31,15 @@ void draw_line(cv::Mat& canvas, double x0, double y0, double x1, double y1,
   cv::line(canvas, fine(x0, y0), fine(x1, y1), colour, thickness, cv::LINE_AA, kShift);
 }
 
+cv::Size size_of(const std::string& text) {
+  int baseline = 0;
+  return cv::getTextSize(text, cv::FONT_HERSHEY_SIMPLEX, kFont, 1, &baseline);
+}
+
 /// align: where (x, y) is in the text, 0 left … 1 right; y is its middle.
 void draw_text(cv::Mat& canvas, const std::string& text, double x, double y, double align,
                const cv::Scalar& colour = kInk) {
-  int baseline = 0;
-  const cv::Size size = cv::getTextSize(text, cv::FONT_HERSHEY_SIMPLEX, kFont, 1, &baseline);
+  const cv::Size size = size_of(text);
   const cv::Point corner(int(std::lround(x - align * size.width)),
                          int(std::lround(y + 0.5 * size.height)));
   cv::putText(canvas, text, corner, cv::FONT_HERSHEY_SIMPLEX, kFont, colour, 1, cv::LINE_AA);
@@ -177,7 +182,9 @@ Image<std::uint16_t> draw_samples(std::span<const SampleCell> cells) {
 
 Image<std::uint16_t> draw_scores(std::span<const float> scores, DisparityRange range, double mean,
                                  std::span<const ScoreMark> marks) {
-  constexpr int kWidth = 860, kHeight = 360, kTop = 40;
+  constexpr int kWidth = 860, kHeight = 360, kTextRow = 18, kAxisName = 8;
+  // A row of text above the curve for each mark, at worst, and one for the name of the axis.
+  const int top = 22 + kTextRow * int(marks.size());
   GIGARAY_CHECK(scores.size() >= 2 && range.min < range.max);
   const auto is_tested = [](float score) { return score >= 0; };  // false for NaN
   double highest = 0;
@@ -186,15 +193,15 @@ Image<std::uint16_t> draw_scores(std::span<const float> scores, DisparityRange r
   if (highest == 0) highest = 1;
   highest *= 1.08;
 
-  cv::Mat canvas(kTop + kHeight + kBottom, kLeft + kWidth + 2 * kMargin, CV_8UC3, kPaper);
+  cv::Mat canvas(top + kHeight + kBottom, kLeft + kWidth + 2 * kMargin, CV_8UC3, kPaper);
   const auto x_of = [&](double d) {
     return kLeft + kWidth * (d - range.min) / (range.max - range.min);
   };
-  const auto y_of = [&](double score) { return kTop + kHeight * (1 - score / highest); };
-  const double right = kLeft + kWidth, bottom = kTop + kHeight;
+  const auto y_of = [&](double score) { return top + kHeight * (1 - score / highest); };
+  const double right = kLeft + kWidth, bottom = top + kHeight;
 
   for (const double d : ticks(range.min, range.max, 11)) {
-    draw_line(canvas, x_of(d), kTop, x_of(d), bottom, kFaint);
+    draw_line(canvas, x_of(d), top, x_of(d), bottom, kFaint);
     draw_line(canvas, x_of(d), bottom, x_of(d), bottom + kTickLength, kInk);
     draw_text(canvas, number(d), x_of(d), bottom + 14, 0.5);
   }
@@ -203,23 +210,36 @@ Image<std::uint16_t> draw_scores(std::span<const float> scores, DisparityRange r
     draw_line(canvas, kLeft - kTickLength, y_of(score), kLeft, y_of(score), kInk);
     draw_text(canvas, number(score), kLeft - 8, y_of(score), 1.0);
   }
-  draw_line(canvas, kLeft, kTop, kLeft, bottom, kInk);
+  draw_line(canvas, kLeft, top, kLeft, bottom, kInk);
   draw_line(canvas, kLeft, bottom, right, bottom, kInk);
   draw_text(canvas, "disparity d, px per view step", kLeft + 0.5 * kWidth, bottom + 34, 0.5);
-  draw_text(canvas, "score S(d)", 8, 12, 0.0);
+  const double names_y = top - 12;
+  draw_text(canvas, "score S(d)", kAxisName, names_y, 0.0);
 
   if (!std::isnan(mean)) {
     for (double x = kLeft; x < right; x += 10)
       draw_line(canvas, x, y_of(mean), std::min(x + 5, right), y_of(mean), kGrey);
     draw_text(canvas, "mean " + number(mean), right, y_of(mean) - 9, 1.0, kGrey);
   }
+  const auto colour_of = [](std::size_t i) { return i == 0 ? kRed : kGrey; };
   for (std::size_t i = marks.size(); i-- > 0;) {
-    const cv::Scalar& colour = i == 0 ? kRed : kGrey;
     const double x = x_of(marks[i].disparity);
-    draw_line(canvas, x, kTop, x, bottom, colour);
-    // Names stand above the curve, each on a line of its own where two would touch.
-    draw_text(canvas, marks[i].name + " " + number(marks[i].disparity), x, i == 0 ? 30 : 12,
-              (x - kLeft) / kWidth, colour);
+    draw_line(canvas, x, top, x, bottom, colour_of(i));
+  }
+  // Names of marks, left to right, each in the lowest row where it touches no other.
+  std::vector<double> row_ends(marks.size() + 1, 0.0);
+  row_ends[0] = kAxisName + size_of("score S(d)").width + kMargin;
+  std::vector<std::size_t> order(marks.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::ranges::sort(order, {}, [&](std::size_t i) { return marks[i].disparity; });
+  for (const std::size_t i : order) {
+    const std::string name = marks[i].name + " " + number(marks[i].disparity);
+    const double x = x_of(marks[i].disparity), align = (x - kLeft) / kWidth;
+    const double begin = x - align * size_of(name).width;
+    const auto row = std::ranges::find_if(row_ends, [&](double end) { return end <= begin; });
+    *row = begin + size_of(name).width + kMargin;
+    draw_text(canvas, name, x, names_y - kTextRow * double(row - row_ends.begin()), align,
+              colour_of(i));
   }
   const double step = (range.max - range.min) / double(scores.size() - 1);
   for (std::size_t i = 0; i < scores.size(); ++i) {

@@ -40,7 +40,7 @@ TEST(Segment, LargeMapsAreTheSameAsPixelByPixel) {
   EXPECT_EQ(wrong, 0u);
 }
 
-/// A bright disc before a dark ground, and a mask that is up to 3 px off.
+/// A bright disc before a dark ground, and a mask that is up to 2 px off.
 struct Disc {
   static constexpr int kSize = 97;
   Image<std::uint16_t> picture{kSize, kSize, 3};
@@ -51,7 +51,7 @@ struct Disc {
       for (int u = 0; u < kSize; ++u) {
         const double radius = std::hypot(u - 48, v - 48);
         truth(u, v) = radius < 30;
-        mask(u, v) = radius < 30 + 3 * std::sin(0.7 * (u + v));
+        mask(u, v) = radius < 30 + 2 * std::sin(0.7 * (u + v));
         for (int c = 0; c < 3; ++c) picture(u, v, c) = truth(u, v) ? 200 : 40;
       }
   }
@@ -67,7 +67,7 @@ TEST(SoftMatte, FollowsTheColoursNearTheEdgeAndNothingElse) {
       EXPECT_GE(matte(u, v), 0);
       EXPECT_LE(matte(u, v), 1);
       const double radius = std::hypot(u - 48, v - 48);
-      const bool is_far_from_edge = std::abs(radius - 30) > 3 + options.radius + 1;
+      const bool is_far_from_edge = std::abs(radius - 30) > 2 + options.radius + 1;
       EXPECT_TRUE(!is_far_from_edge || matte(u, v) == float(disc.mask(u, v))) << u << ", " << v;
       error += (matte(u, v) > 0.5f) != (disc.truth(u, v) != 0);
       before += disc.mask(u, v) != disc.truth(u, v);

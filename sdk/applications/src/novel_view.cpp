@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <initializer_list>
 #include <numeric>
 #include <optional>
 
@@ -15,6 +16,8 @@ namespace gigaray {
 namespace {
 
 constexpr int kMostSources = 32;
+/// How far the colours of a silhouette reach into the background, px.
+constexpr int kSilhouette = 3;
 
 /// Inverse depth that a source's points give the new view.
 class SplatMap {
@@ -107,12 +110,13 @@ class Renderer {
         camera_.height,
         [&](int v) {
           for (int u = 0; u < camera_.width; ++u) view.inverse_depth(u, v) = front_of(u, v);
-          for (int u = 0; u < camera_.width; ++u)
-            view.seen(u, v) = !std::isnan(view.inverse_depth(u, v));
-          fill_row(view.inverse_depth, v);
-          for (int u = 0; u < camera_.width; ++u)
-            if (!std::isnan(view.inverse_depth(u, v)))
-              mix(u, v, view.inverse_depth(u, v), view.seen(u, v) != 0, &view.picture(u, v));
+          for (int u = 0; u < camera_.width; ++u) {
+            const float front = view.inverse_depth(u, v);
+            view.seen(u, v) =
+                !std::isnan(front) && mix(u, v, front, {Sight::kSees}, &view.picture(u, v));
+            if (!view.seen(u, v)) view.inverse_depth(u, v) = kNoEstimate;
+          }
+          fill_row(view, v);
         },
         [&](int) { control.throw_if_cancelled(); });
     return view;
@@ -181,19 +185,30 @@ class Renderer {
     return sum / number;
   }
 
-  /// Gaps show the farther of their two sides: what comes into sight is behind.
-  static void fill_row(FloatMap& map, int v) {
+  /// Gaps show the farther of their two sides: what comes into sight is behind. Where every source
+  /// has something in front of that, the background beside is drawn out, from where nothing of the
+  /// silhouette is left in its colour.
+  void fill_row(NovelView& view, int v) const {
+    FloatMap& map = view.inverse_depth;
     const int width = map.width();
     for (int u = 0; u < width; ++u) {
       if (!std::isnan(map(u, v))) continue;
       int end = u;
       while (end < width && std::isnan(map(end, v))) ++end;
-      const float left = u > 0 ? map(u - 1, v) : kNoEstimate;
-      const float right = end < width ? map(end, v) : kNoEstimate;
-      const float behind = std::isnan(left)    ? right
-                           : std::isnan(right) ? left
-                                               : std::min(left, right);
-      for (; u < end; ++u) map(u, v) = behind;
+      if (u == 0 && end == width) return;
+      const bool from_left = end == width || (u > 0 && map(u - 1, v) <= map(end, v));
+      const int side = from_left ? u - 1 : end;
+      const float behind = map(side, v);
+      int clear = side;
+      for (int x = side; x >= 0 && x < width && std::abs(x - side) <= kSilhouette &&
+                         std::abs(map(x, v) - behind) <= tolerance_;
+           x += from_left ? -1 : 1)
+        clear = x;
+      for (; u < end; ++u) {
+        map(u, v) = behind;
+        if (!mix(u, v, map(u, v), {Sight::kSees, Sight::kSeesThrough}, &view.picture(u, v)))
+          std::copy_n(&view.picture(clear, v), 3, &view.picture(u, v));
+      }
     }
   }
 
@@ -231,7 +246,9 @@ class Renderer {
     return angle + blend.resolution * coarser + blend.field * outside;
   }
 
-  void mix(int u, int v, float inverse_depth, bool seen, std::uint16_t* result) const {
+  /// The colour of a point, of the sources that see it in one of these ways; false: there are none.
+  bool mix(int u, int v, float inverse_depth, std::initializer_list<Sight> sights,
+           std::uint16_t* result) const {
     struct Part {
       double penalty;
       std::array<double, 3> colour;
@@ -239,18 +256,13 @@ class Renderer {
     std::array<Part, kMostSources> parts;
     int count = 0;
     const Eigen::Vector3d point = camera_.back_project(u, v, 1 / inverse_depth);
-    const auto collect = [&](bool visible_alone) {
-      for (const SourceView& source : sources_) {
-        const Look found = look(source, point);
-        if (found.sight == Sight::kOutside || (visible_alone && found.sight != Sight::kSees))
-          continue;
+    for (const SourceView& source : sources_) {
+      const Look found = look(source, point);
+      if (std::ranges::find(sights, found.sight) != sights.end())
         parts[count++] = {penalty(source, found, point),
                           sample(source, found.place.x(), found.place.y())};
-      }
-    };
-    collect(seen);
-    if (count == 0) collect(false);
-    if (count == 0) return;
+    }
+    if (count == 0) return false;
     const auto begin = parts.begin(), end = parts.begin() + count;
     std::array<double, 3> sum{};
     double total = 0;
@@ -274,6 +286,7 @@ class Renderer {
     }
     for (int c = 0; c < 3; ++c)
       result[c] = std::uint16_t(std::lround(std::clamp(sum[c] / total, 0.0, most_)));
+    return true;
   }
 
   const Camera& camera_;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Gigaray authors
 //
-// The difference ΔE of a block of rows: predicted, the misses quantised, sorted into streams by how
-// well the neighbourhood was predicted, and each stream left to zstd's entropy coder.
+// The difference ΔE of a block of rows: predicted, the misses quantised and coded by models that are
+// chosen by how well the neighbourhood was predicted.
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <algorithm>
@@ -25,7 +25,7 @@ int noisy_bits(int context) { return std::max(0, (context - 1) / 2 - 4); }
 /// The weights of a channel, one set for each roughness.
 using ChannelWeights = std::array<Weights, DifferencePlanes::kRoughnesses>;
 
-/// Weights that predict a channel best, pixels in calm places counting most.
+/// Weights that predict a channel best, least squares over a sample of its pixels.
 ChannelWeights fit_weights(const DifferencePlanes& planes, int channel, int width, int height) {
   const int n = planes.num_features(channel);
   constexpr int kSamples = 60000;
@@ -40,9 +40,8 @@ ChannelWeights fit_weights(const DifferencePlanes& planes, int channel, int widt
     const auto values = planes.features(channel, u, v);
     for (int k = 0; k < n; ++k) row[k] = values[k];
     const int r = planes.roughness(channel, u, v);
-    const double weight = 1;
-    normals[r].selfadjointView<Eigen::Lower>().rankUpdate(row, weight);
-    rights[r] += weight * planes.difference(channel, u, v) * row;
+    normals[r].selfadjointView<Eigen::Lower>().rankUpdate(row);
+    rights[r] += planes.difference(channel, u, v) * row;
   }
   ChannelWeights all;
   for (int r = 0; r < DifferencePlanes::kRoughnesses; ++r) {

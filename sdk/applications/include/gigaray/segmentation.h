@@ -21,14 +21,15 @@ struct ValueInterval {
 void segment(const FloatMap& map, ValueInterval interval, Mask& mask);
 
 struct MatteOptions {
-  int radius = 6;          ///< Half the width of the soft edge, px. 1 … 64
-  float contrast = 0.01f;  ///< Colour differences below it are the same material, [0, 1]. > 0
+  int radius = 4;          ///< Half the width of the soft edge, px. 1 … 64
+  float contrast = 0.05f;  ///< Colour differences below it are the same material, [0, 1]. > 0
 };
 
-/// The mask with soft edges: within `radius` of its edge the opacity follows the colours of the
-/// picture (guided filter, He et al. 2010), 0 or 1 elsewhere. picture: RGB (v, u, c), 0 …
-/// 2^bit_depth − 1, the size of the mask. Result: (v, u) in [0, 1]. Throws Error(kInvalidArgument)
-/// for options out of range.
+/// The mask with soft edges: within `radius` of its edge, opacity is where the pixel's colour lies
+/// between the mean colours outside and inside, as far as these differ by more than their spread
+/// and `contrast`, and the mask with an edge of about a pixel where they don't; 0 or 1 elsewhere.
+/// picture: RGB (v, u, c), 0 … 2^bit_depth − 1, the size of the mask. Result: (v, u) in [0, 1].
+/// Throws Error(kInvalidArgument) for options out of range.
 FloatMap soft_matte(const Mask& mask, const Image<std::uint16_t>& picture, int bit_depth,
                     const MatteOptions& options);
 
