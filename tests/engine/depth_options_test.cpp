@@ -74,6 +74,7 @@ TEST(DepthOptions, AValueOutOfRangeIsNamedWithItsField) {
       {"winner.median_radius", "9", [](auto& o) { o.winner.median_radius = 9; }},
       {"winner.median_tolerance", "0", [](auto& o) { o.winner.median_tolerance = 0; }},
       {"propagation.tolerance", "0", [](auto& o) { o.propagation.tolerance = 0; }},
+      {"propagation.finished_lead", "-1", [](auto& o) { o.propagation.finished_lead = -1; }},
       {"propagation.final_median_radius", "-1",
        [](auto& o) { o.propagation.final_median_radius = -1; }},
       {"disparity", "1 1",

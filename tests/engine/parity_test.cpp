@@ -380,7 +380,9 @@ TYPED_TEST(Parity, MeanRadiance) {
 
 TYPED_TEST(Parity, Propagation) {
   for (const ParityCase& size : parity_cases()) {
-    ParityBench<TypeParam> bench(size, paper_options());
+    DepthOptions options = paper_options();
+    options.propagation.finished_lead = 1.25f;
+    ParityBench<TypeParam> bench(size, options);
     const RowRange reached = bench.rows_of_all(bench.rows());
     std::vector<PackedEstimate> expected(std::size_t(reached.size()) * bench.active_count *
                                          bench.width());
@@ -393,9 +395,9 @@ TYPED_TEST(Parity, Propagation) {
       const auto confidence = bench.random_values(bench.rows());
       StripMap<Radiance> radiance(bench.width(), bench.rows());
       bench.reference->mean_radiance(ref, bench.rows(), disparity, radiance);
-      bench.reference->propagation(ref, bench.rows(), disparity, confidence, radiance, reached,
+      bench.reference->propagation(ref, bench.rows(), disparity, confidence, radiance, reached, 2,
                                    expected.data());
-      bench.opencl->propagation(ref, bench.rows(), disparity, confidence, radiance, reached,
+      bench.opencl->propagation(ref, bench.rows(), disparity, confidence, radiance, reached, 2,
                                 actual.data());
     }
     Difference hypothesis, confidence;

@@ -355,11 +355,13 @@ struct Rays {
     std::fill_n(disparity.row(0), width, kNoEstimate);
     estimates.resize(this->views.size() * width);
   }
-  void propagate(const Band& band) {
+  void propagate(const Band& band, int finished = 0) {
     std::vector<int> active(views.size());
     for (int i = 0; i < int(active.size()); ++i) active[i] = i;
-    reference::propagation(band, EpiSampler(views), 0, {0, 1}, active, 0.1f, disparity, confidence,
-                           radiance, {0, 1}, estimates.data());
+    PropagationOptions options;
+    options.finished_lead = 2;
+    reference::propagation(band, EpiSampler(views), 0, {0, 1}, active, options, disparity,
+                           confidence, radiance, {0, 1}, finished, estimates.data());
   }
   PackedEstimate at(int view, int u) const { return estimates[std::size_t(view) * width + u]; }
 };
@@ -388,6 +390,23 @@ TEST(ReferencePropagation, TheNearerStaysThenTheMoreConfident) {
   rays.confidence.row(0)[8] = 0.2f;
   rays.propagate(flat);
   EXPECT_EQ(confidence_of(rays.at(1, 5)), 0.4f);
+}
+
+TEST(ReferencePropagation, AFinishedViewGivesUpForWhatIsNearerAndLeads) {
+  const Band flat = band_of(21, 1, 2, 3, [](int, int, int, int) { return 0.5; });
+  Rays rays(21, {{"a", 0, 0}, {"b", 1, 0}});
+  std::fill_n(rays.radiance.row(0), 21, Radiance{0.5f, 0.5f, 0.5f});
+  const auto arrive = [&](float disparity, float confidence) {
+    std::fill_n(rays.disparity.row(0), 21, kNoEstimate);
+    rays.disparity.row(0)[5 + int(disparity)] = disparity;
+    rays.confidence.row(0)[5 + int(disparity)] = confidence;
+    rays.propagate(flat, 2);
+    return hypothesis_of(rays.at(1, 5));
+  };
+  EXPECT_EQ(arrive(1, 0.2f), 1);  // nothing was there
+  EXPECT_EQ(arrive(3, 0.4f), 1);  // nearer, but not more than twice as confident
+  EXPECT_EQ(arrive(0, 0.9f), 1);  // confident, but farther
+  EXPECT_EQ(arrive(3, 0.5f), 3);
 }
 
 TEST(ReferencePropagation, AnOccluderIsSkippedAndTheWalkGoesOn) {

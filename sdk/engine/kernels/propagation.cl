@@ -2,7 +2,9 @@
 // Copyright (c) 2026 The Gigaray authors
 // Propagation (section 4.4): an accepted estimate is written into every other view that sees its
 // point in a similar colour. Where estimates meet the nearer one stays, then the more confident one:
-// the result does not depend on the order.
+// the result does not depend on the order. The first `finished` active views keep what they have
+// unless what arrives is nearer and more confident by finished_lead (0: nearer is enough); pixels
+// arrive there row by row, on every device.
 //   active     [active_count] places in the band of the views that keep estimates; -1: not there
 //   disparity  [row][pitch]; NaN: not accepted
 //   confidence [row][pitch]; radiance [row][pitch][3]
@@ -21,6 +23,7 @@ __kernel void propagation(__global const float* band, const BandParams p, const 
                           const int active_count, __global const float* disparity,
                           __global const float* confidence, __global const float* radiance,
                           const float tolerance, const int state_begin, const int state_end,
+                          const int finished, const float finished_lead,
                           __global ulong* estimates) {
   const int target = get_global_id(0);
   const int view = active[target];
@@ -47,6 +50,9 @@ __kernel void propagation(__global const float* band, const BandParams p, const 
       }
       __global ulong* estimate =
           estimates + ((size_t)(yi - state_begin) * active_count + target) * p.width + xi;
+      if (target < finished && *estimate != 0 && finished_lead > 0.0f &&
+          !(confidence[pixel] > finished_lead * as_float((uint)*estimate)))
+        continue;
       *estimate = max(*estimate, packed_estimate(h_other, confidence[pixel]));
     }
   }

@@ -338,7 +338,7 @@ class OpenClBackend : public Backend {
 
   void propagation(int ref, RowRange rows, const StripMap<float>& disparity,
                    const StripMap<float>& confidence, const StripMap<Radiance>& radiance,
-                   RowRange state_rows, PackedEstimate* estimates) override {
+                   RowRange state_rows, int finished, PackedEstimate* estimates) override {
     Kernel& kernel = plain_kernel("propagation", "propagation", "");
     const int active_count = int(active_views_.size());
     const std::span<std::byte> host(
@@ -351,7 +351,7 @@ class OpenClBackend : public Backend {
         .set_args(band_memory_.buffer, band_, strip(ref, rows), rays(ref), active_buffer_,
                   active_count, upload(3, rows, disparity), upload(4, rows, confidence),
                   upload(5, rows, radiance), setup_.options.propagation.tolerance, state_rows.begin,
-                  state_rows.end, state)
+                  state_rows.end, finished, setup_.options.propagation.finished_lead, state)
         .run(WorkSize(active_count), WorkSize(1));
     if (device_.info().shares_host_memory)
       opencl::Mapping(state, opencl::Mapping::Access::kRead);

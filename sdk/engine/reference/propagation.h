@@ -3,17 +3,19 @@
 #pragma once
 
 #include "band.h"
+#include "gigaray/depth_options.h"
 
 namespace gigaray::reference {
 
 /// Writes accepted estimates into every active view that sees them in a similar colour
 /// (section 4.4). active_views: their places in the band, -1: not there. estimates:
-/// [state_rows][active view][width].
+/// [state_rows][active view][width]. finished: how many active views, the first ones, keep what
+/// they have unless what arrives is nearer and leads.
 template <RaySampler S>
 void propagation(const Band& band, const S& sampler, int ref, RowRange rows,
-                 const std::vector<int>& active_views, float tolerance,
+                 const std::vector<int>& active_views, const PropagationOptions& options,
                  const StripMap<float>& disparity, const StripMap<float>& confidence,
-                 const StripMap<Radiance>& radiance, RowRange state_rows,
+                 const StripMap<Radiance>& radiance, RowRange state_rows, int finished,
                  PackedEstimate* estimates) {
   const int width = band.shape.width;
   for (int v = rows.begin; v < rows.end; ++v) {
@@ -29,13 +31,17 @@ void propagation(const Band& band, const S& sampler, int ref, RowRange rows,
         const double x = std::floor(there->u + 0.5), y = std::floor(there->v + 0.5);
         if (x < 0 || x >= width || y < 0 || y >= band.shape.height) continue;
         if (!state_rows.contains(int(y))) continue;
-        const bool similar = view == ref || colour_distance(band.pixel(view, int(x), int(y)),
-                                                            {mean.r, mean.g, mean.b}) < tolerance;
+        const bool similar =
+            view == ref || colour_distance(band.pixel(view, int(x), int(y)),
+                                           {mean.r, mean.g, mean.b}) < options.tolerance;
         if (!similar) continue;
         PackedEstimate& estimate =
             estimates[(std::size_t(int(y) - state_rows.begin) * active_views.size() + target) *
                           width +
                       int(x)];
+        if (int(target) < finished && estimate != 0 && options.finished_lead > 0 &&
+            !(confidence.row(v)[u] > options.finished_lead * confidence_of(estimate)))
+          continue;
         estimate =
             std::max(estimate, pack_estimate(float(there->hypothesis), confidence.row(v)[u]));
       }

@@ -71,6 +71,7 @@ void DepthOptions::check() const {
   in_range("winner.median_tolerance", winner.median_tolerance, kTiny, kLarge);
   in_range("winner.min_relief", winner.min_relief, 0.0f, 1.0f);
   in_range("propagation.tolerance", propagation.tolerance, kTiny, kLarge);
+  in_range("propagation.finished_lead", propagation.finished_lead, 0.0f, kLarge);
   in_range("propagation.crack_width", propagation.crack_width, 0, 8);
   in_range("propagation.final_median_radius", propagation.final_median_radius, 0, 8);
   if (memory_bytes < 0 || std::isnan(memory_bytes))
@@ -117,6 +118,7 @@ DepthOptions auto_options() {
   options.winner.weigh_by_edge = false;
   options.winner.calibrated = true;
   options.winner.min_relief = 0.05f;
+  options.propagation.finished_lead = 2;
   options.propagation.crack_width = 2;
   options.propagation.final_median_radius = 0;  // its own median has been there
   return options;

@@ -366,7 +366,7 @@ void Pipeline::accept_view(int active_idx, ViewMaps& maps) {
           tuples_.append({h, maps.confidence.row(v)[u], radiance.row(v)[u], view, u, v, level_});
     const RowRange reached = rows_needed(view, band);
     std::byte* estimates = state.estimates.open(reached, state_scratch_);
-    backend_.propagation(view, band, accepted, maps.confidence, radiance, reached,
+    backend_.propagation(view, band, accepted, maps.confidence, radiance, reached, active_idx,
                          reinterpret_cast<PackedEstimate*>(estimates));
     state.estimates.close(reached, estimates);
   }

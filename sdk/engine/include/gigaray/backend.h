@@ -91,8 +91,8 @@ struct LevelShape {
   int height = 0;
 };
 
-/// Colour in a band of a pixel that shows nothing of the scene. No kernel reaches it, and a negative
-/// red tells the samples that it has a part in.
+/// Colour in a band of a pixel that shows nothing of the scene. No kernel reaches it, and a
+/// negative red tells the samples that it has a part in.
 inline constexpr float kMaskedColour = -1000;
 
 /// How the rows of a band are encoded.
@@ -117,9 +117,9 @@ class Backend {
   /// Views that keep estimates, in the order that `estimates` below has.
   virtual void set_active_views(const std::vector<int>& views) = 0;
   virtual void begin_level(const LevelShape& shape) = 0;
-  /// rows: what is loaded, halo included. views: whose, ascending; the steps see no others. encoded:
-  /// rows.size() rows of those views in the given encoding. mask: [row][view][u], 0: the pixel
-  /// shows nothing of the scene and no sample is taken there; null: all do.
+  /// rows: what is loaded, halo included. views: whose, ascending; the steps see no others.
+  /// encoded: rows.size() rows of those views in the given encoding. mask: [row][view][u], 0: the
+  /// pixel shows nothing of the scene and no sample is taken there; null: all do.
   virtual void load_band(RowRange rows, const std::vector<int>& views, const void* encoded,
                          BandEncoding encoding, const std::uint8_t* mask) = 0;
 
@@ -172,10 +172,13 @@ class Backend {
   virtual void mean_radiance(int ref, RowRange rows, const StripMap<float>& disparity,
                              StripMap<Radiance>& radiance) = 0;
   /// estimates: [state_rows][active view][width], updated. Rays that leave state_rows are dropped.
+  /// finished: so many of the active views, the first ones, keep what they have unless what arrives
+  /// is nearer and leads by PropagationOptions::finished_lead.
   virtual void propagation(int ref, RowRange rows, const StripMap<float>& disparity,
                            const StripMap<float>& confidence, const StripMap<Radiance>& radiance,
-                           RowRange state_rows, PackedEstimate* estimates) = 0;
-  /// small: [small_rows][loaded view][3][(width + 1) / 2]. The band covers rows 2v − 3 … 2v + 3 of them.
+                           RowRange state_rows, int finished, PackedEstimate* estimates) = 0;
+  /// small: [small_rows][loaded view][3][(width + 1) / 2]. The band covers rows 2v − 3 … 2v + 3 of
+  /// them.
   virtual void downsample(RowRange small_rows, float* small) = 0;
 };
 

@@ -91,6 +91,9 @@ struct WinnerOptions {
 /// Propagation and fine-to-coarse.
 struct PropagationOptions {
   float tolerance = 0.1f;  ///< Colour distance ε between mean radiance and a ray. > 0
+  /// A view that is finished gives an estimate up for a nearer one that is more confident by this
+  /// factor. 0: for any nearer one.
+  float finished_lead = 0;
   /// Holes between estimates carried over from other views that are filled between their neighbours
   /// on level 0, and holes that are left to coarser levels: px. 0: none; 0 … 8
   int crack_width = 0;
