@@ -7,10 +7,8 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <memory>
 
 #include "gigaray/adapters/depth_result.h"
-#include "gigaray/adapters/sparse_file.h"
 #include "view_list.h"
 
 namespace gigaray::cli {
@@ -19,12 +17,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kMostKept = 24;
-
-FloatMap sure(FloatMap disparity, const FloatMap& confidence, double least) {
-  for (std::size_t i = 0; i < disparity.size(); ++i)
-    if (!(confidence.data()[i] >= least)) disparity.data()[i] = kNoEstimate;
-  return disparity;
-}
 
 std::optional<std::vector<double>> parse_numbers(const std::string& text, std::size_t count) {
   std::vector<double> numbers;
@@ -46,43 +38,8 @@ std::optional<std::vector<double>> parse_numbers(const std::string& text, std::s
 }  // namespace
 
 RenderScene::RenderScene(const fs::path& result, const fs::path& input, double min_confidence)
-    : result_(result) {
-  std::error_code ignored;
-  DisparityRange range;
-  if (fs::is_directory(result, ignored)) {
-    const auto depth = std::make_shared<DepthResult>(result);
-    light_field_ = depth->with_pictures(input);
-    range = depth->searched();
-    open_input_ = [depth, input] { return depth->open_input(input); };
-    disparity_ = [depth, min_confidence](int view) {
-      FloatMap map = depth->disparity(view);
-      return min_confidence > 0 ? sure(std::move(map), depth->confidence(view), min_confidence)
-                                : map;
-    };
-  } else {
-    if (min_confidence > 0)
-      throw Error(
-          ErrorCode::kInvalidArgument,
-          "--min-confidence: a .grl file holds no confidence; render the folder of `depth`");
-    const SparseFile file(result);
-    light_field_ = file.light_field();
-    range = file.disparity_range();
-    disparity_ = [file](int view) { return file.disparity(view, {0, file.shape().height}); };
-  }
-  rig_.emplace(light_field_, range.min);
-}
-
-RealView real_view(const LightField& light_field, int view, const Camera& camera) {
-  Image<std::uint16_t> picture = read_view(light_field, view);
-  const std::optional<Mask> shown = take_mask(picture);
-  RealView real{camera, Image<std::uint16_t>(camera.width, camera.height, 3), {}};
-  if (shown) real.shown = Mask(camera.width, camera.height);
-  for (int v = 0; v < camera.height; ++v) {
-    std::copy_n(picture.row(v), 3 * camera.width, real.picture.row(v));
-    if (shown) std::copy_n(shown->row(v), camera.width, real.shown.row(v));
-  }
-  return real;
-}
+    : scene_(open_depth_scene(result, input, min_confidence)),
+      rig_(scene_.light_field, scene_.range.min) {}
 
 const SourceView& RenderScene::source(int view) {
   const auto found =
@@ -91,46 +48,46 @@ const SourceView& RenderScene::source(int view) {
     kept_.splice(kept_.begin(), kept_, found);
     return kept_.front().source;
   }
-  const Camera& camera = rig_->camera(view);
+  const Camera& camera = rig_.camera(view);
   kept_.push_front({view,
-                    {camera, real_view(light_field_, view, camera).picture,
-                     rig_->inverse_depth(disparity_(view))}});
+                    {camera, real_view(light_field(), view, camera).picture,
+                     rig_.inverse_depth(scene_.disparity(view))}});
   return kept_.front().source;
 }
 
 NovelView RenderScene::render(const Camera& camera, int most_sources, int exclude,
                               const NovelViewOptions& options, const RunControl& control) {
   std::vector<SourceView> sources;
-  for (const int view : nearest_cameras(rig_->cameras(), camera, most_sources, exclude)) {
+  for (const int view : nearest_cameras(rig_.cameras(), camera, most_sources, exclude)) {
     control.throw_if_cancelled();
     sources.push_back(source(view));
   }
   if (kept_.size() > kMostKept) kept_.resize(kMostKept);
-  return render_view(camera, sources, light_field_.pixels->bit_depth(), options, control);
+  return render_view(camera, sources, light_field().pixels->bit_depth(), options, control);
 }
 
 int RenderScene::find(const std::string& name) const {
-  const auto found = std::find_if(light_field_.views.begin(), light_field_.views.end(),
+  const auto found = std::find_if(light_field().views.begin(), light_field().views.end(),
                                   [&](const View& view) { return view.name == name; });
-  return found == light_field_.views.end() ? -1 : int(found - light_field_.views.begin());
+  return found == light_field().views.end() ? -1 : int(found - light_field().views.begin());
 }
 
 RealView RenderScene::left_out(const std::string& name) const {
-  const auto place = std::find_if(light_field_.left_out.begin(), light_field_.left_out.end(),
+  const auto place = std::find_if(light_field().left_out.begin(), light_field().left_out.end(),
                                   [&](const View& view) { return view.name == name; });
-  if (place == light_field_.left_out.end())
+  if (place == light_field().left_out.end())
     throw Error(ErrorCode::kInvalidArgument,
-                fmt::format("view {}: {} has no view of this name", name, result_.string()));
-  const LightField all = open_input_();
+                fmt::format("view {}: {} has no view of this name", name, scene_.result.string()));
+  const LightField all = scene_.open_input();
   const auto view = std::find_if(all.views.begin(), all.views.end(),
                                  [&](const View& other) { return other.name == name; });
   if (view == all.views.end())
     throw Error(ErrorCode::kBadInput,
-                fmt::format("{}: its input has no view {} any more", result_.string(), name));
+                fmt::format("{}: its input has no view {} any more", scene_.result.string(), name));
   const int index = int(view - all.views.begin());
   const Camera camera = all.kind == LightFieldKind::kUnstructured
                             ? all.cameras[index]
-                            : rig_->camera_at(place->s, place->t);
+                            : rig_.camera_at(place->s, place->t);
   return real_view(all, index, camera);
 }
 

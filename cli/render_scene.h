@@ -3,24 +3,16 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
 #include <list>
-#include <optional>
 #include <string>
 #include <vector>
 
+#include "depth_scene.h"
 #include "gigaray/light_field.h"
 #include "gigaray/novel_view.h"
 #include "gigaray/rig_cameras.h"
 
 namespace gigaray::cli {
-
-/// A view of the input with its camera, to compare with.
-struct RealView {
-  Camera camera;
-  Image<std::uint16_t> picture;
-  Mask shown;  ///< 0 where the picture shows nothing of the scene; empty: it does everywhere
-};
 
 /// Pictures, depth and cameras that novel views are made of: an output folder of `gigaray depth` or
 /// a .grl file.
@@ -31,8 +23,8 @@ class RenderScene {
   RenderScene(const std::filesystem::path& result, const std::filesystem::path& input,
               double min_confidence);
 
-  const LightField& light_field() const { return light_field_; }
-  const RigCameras& rig() const { return *rig_; }
+  const LightField& light_field() const { return scene_.light_field; }
+  const RigCameras& rig() const { return rig_; }
 
   /// A view of the light field as a source. The last ones are kept.
   const SourceView& source(int view);
@@ -48,20 +40,14 @@ class RenderScene {
   RealView left_out(const std::string& name) const;
 
  private:
-  std::filesystem::path result_;
-  LightField light_field_;
-  std::function<FloatMap(int)> disparity_;
-  std::function<LightField()> open_input_;
-  std::optional<RigCameras> rig_;
+  DepthScene scene_;
+  RigCameras rig_;
   struct Kept {
     int view;
     SourceView source;
   };
   std::list<Kept> kept_;  ///< the last one used first
 };
-
-/// A view with its picture as large as its camera.
-RealView real_view(const LightField& light_field, int view, const Camera& camera);
 
 /// The camera that a text means:
 ///   centre, a name or an index          of a view

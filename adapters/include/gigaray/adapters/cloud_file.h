@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Gigaray authors
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+
+#include "gigaray/adapters/atomic_output.h"
+#include "gigaray/point_cloud.h"
+
+namespace gigaray {
+
+/// Writes a point cloud piece by piece as binary PLY, little endian: x y z nx ny nz confidence
+/// support (float), red green blue (uchar). The file appears with commit(). Throws Error(kIo).
+class CloudFile {
+ public:
+  explicit CloudFile(const std::filesystem::path& path);
+
+  /// Points whose position or normal is not finite are left out.
+  void add(const PointCloud& cloud);
+  void commit();
+
+  std::uint64_t points() const { return points_; }
+
+ private:
+  AtomicFile file_;
+  std::uint64_t points_ = 0;
+};
+
+}  // namespace gigaray

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Gigaray authors
+#pragma once
+
+#include <filesystem>
+
+#include "gigaray/surface_mesh.h"
+
+namespace gigaray {
+
+/// Throws Error(kInvalidArgument) when the extension of a name is that of no mesh file.
+void check_mesh_name(const std::filesystem::path& path);
+
+/// Writes a surface, whole or not at all: binary .ply, .obj, binary glTF .glb, binary .stl (which
+/// has no colours). Axes as they are, but .glb, whose y points up and whose surfaces look along z:
+/// there y and z are negated. Throws Error(kInvalidArgument) for another extension and for an empty
+/// surface, Error(kIo).
+void write_mesh(const std::filesystem::path& path, const SurfaceMesh& mesh);
+
+}  // namespace gigaray

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Gigaray authors
+#include "gigaray/adapters/cloud_file.h"
+
+#include <string>
+
+#include "ply.h"
+
+namespace gigaray {
+namespace {
+
+std::string header(std::uint64_t points) {
+  return ply::begin_header(points, {"x", "y", "z", "nx", "ny", "nz", "confidence", "support"}) +
+         "end_header\n";
+}
+
+}  // namespace
+
+CloudFile::CloudFile(const std::filesystem::path& path) : file_(path) { file_.write(header(0)); }
+
+void CloudFile::add(const PointCloud& cloud) {
+  std::string bytes;
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    const Eigen::Vector3f &p = cloud.positions[i], &n = cloud.normals[i];
+    if (!p.allFinite() || !n.allFinite()) continue;
+    for (const float number :
+         {p.x(), p.y(), p.z(), n.x(), n.y(), n.z(), cloud.confidences[i], cloud.supports[i]})
+      ply::append(bytes, number);
+    ply::append(bytes, cloud.colours[i]);
+    ++points_;
+  }
+  file_.write(bytes);
+}
+
+void CloudFile::commit() {
+  file_.write_at_begin(header(points_));
+  file_.commit();
+}
+
+}  // namespace gigaray

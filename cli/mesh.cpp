@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Gigaray authors
+#include <fmt/format.h>
+
+#include <chrono>
+#include <memory>
+
+#include "command.h"
+#include "gigaray/adapters/mesh_file.h"
+#include "gigaray/meshing/cloud_mesh.h"
+#include "gigaray/meshing/grid_mesh.h"
+#include "gigaray/meshing/mesh_processing.h"
+#include "gigaray/meshing/mesh_report.h"
+#include "surface_input.h"
+
+namespace gigaray::cli {
+namespace {
+
+using nlohmann::ordered_json;
+
+struct Settings {
+  SurfaceInput input;
+  std::filesystem::path output;
+  std::string method = "grid";
+  double voxel = 0;
+  std::size_t most_points = 300'000;
+  double trim = PoissonOptions{}.trim;
+  MeshCleaning cleaning;
+  bool json = false;
+};
+
+SurfaceMesh surface_of(const Settings& settings, const DepthViews& views, PointCounts& counts,
+                       const RunControl& control) {
+  if (settings.method == "grid") return grid_mesh(views, settings.input.points, &counts, control);
+  CloudOptions options;
+  options.points = settings.input.points;
+  options.voxel = settings.voxel;
+  if (settings.voxel == 0) options.most_points = settings.most_points;
+  PointCloud cloud;
+  counts = build_cloud(
+               views, options, [&](const PointCloud& tile) { append(cloud, tile); }, control)
+               .pixels;
+  control.throw_if_cancelled();
+  control.progress("surface", 0, 1);
+  SurfaceMesh mesh = settings.method == "poisson"
+                         ? poisson_mesh(cloud, {.spacing = 1, .trim = settings.trim})
+                         : advancing_front_mesh(cloud, {});
+  control.progress("surface", 1, 1);
+  return mesh;
+}
+
+ordered_json report_json(const MeshReport& report) {
+  const auto list = [](const Eigen::Vector3f& v) { return std::vector<float>{v[0], v[1], v[2]}; };
+  return {{"vertices", report.vertices},
+          {"faces", report.faces},
+          {"components", report.components},
+          {"boundary_edges", report.boundary_edges},
+          {"boundary_loops", report.boundary_loops},
+          {"genus", report.genus},
+          {"self_intersections", report.self_intersections},
+          {"watertight", report.is_watertight},
+          {"area", report.area},
+          {"volume", report.volume ? ordered_json(*report.volume) : ordered_json()},
+          {"box", {list(report.least), list(report.most)}}};
+}
+
+void print_report(const MeshReport& report) {
+  fmt::print("surface       {} vertices, {} faces, {} components\n", report.vertices, report.faces,
+             report.components);
+  fmt::print("shape         {}, genus {}, {} boundary edges in {} loops, {} self-intersections\n",
+             report.is_watertight ? "watertight" : "open", report.genus, report.boundary_edges,
+             report.boundary_loops, report.self_intersections);
+  fmt::print("area          {:.6g}\n", report.area);
+  if (report.volume) fmt::print("volume        {:.6g}\n", *report.volume);
+  fmt::print("box           {:.4g} {:.4g} {:.4g} … {:.4g} {:.4g} {:.4g}\n", report.least.x(),
+             report.least.y(), report.least.z(), report.most.x(), report.most.y(), report.most.z());
+}
+
+void run(const Settings& settings, const RunControl& control) {
+  check_mesh_name(settings.output);
+  const auto begin = std::chrono::steady_clock::now();
+  const DepthViews views = settings.input.open(control);
+  PointCounts counts;
+  MeshCleaned done;
+  const SurfaceMesh mesh =
+      cleaned(surface_of(settings, views, counts, control), settings.cleaning, &done);
+  if (mesh.faces.empty())
+    throw Error(ErrorCode::kBadInput,
+                fmt::format("no surface is left: all pieces have fewer than {} triangles",
+                            settings.cleaning.least_faces));
+  control.throw_if_cancelled();
+  const MeshReport report = report_of(mesh);
+  write_mesh(settings.output, mesh);
+  const double seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+
+  if (settings.json) {
+    const ordered_json root{{"format", "gigaray mesh"},
+                            {"version", 1},
+                            {"file", settings.output.string()},
+                            {"method", settings.method},
+                            {"filters", as_json(counts)},
+                            {"pieces_dropped", done.pieces_dropped},
+                            {"holes_filled", done.holes_filled},
+                            {"mesh", report_json(report)},
+                            {"seconds", seconds}};
+    fmt::print("{}\n", root.dump(2));
+    return;
+  }
+  print(counts, views.size(), settings.input.points);
+  if (done.pieces_dropped > 0)
+    fmt::print("small pieces  {} with fewer than {} faces are left out\n", done.pieces_dropped,
+               settings.cleaning.least_faces);
+  if (settings.cleaning.hole_edges > 0) fmt::print("holes         {} filled\n", done.holes_filled);
+  print_report(report);
+  fmt::print("{}: {} in {:.1f} s\n", settings.output.string(), settings.method, seconds);
+}
+
+}  // namespace
+
+Run mesh_command(CLI::App& app) {
+  app.description("A surface of triangles, coloured, with a report of its shape");
+  const auto settings = std::make_shared<Settings>();
+  settings->input.declare(app);
+  app.add_option("-o,--output", settings->output, "scene.ply, .obj, .glb or .stl")
+      ->type_name("FILE")
+      ->required();
+  app.add_option("--method", settings->method,
+                 "grid: depth maps triangulated on their pixels, cut where depth jumps; poisson: "
+                 "smooth, closes gaps; front: triangles between the points of the cloud")
+      ->check(CLI::IsMember({"grid", "poisson", "front"}))
+      ->capture_default_str();
+  app.add_option("--voxel", settings->voxel,
+                 "poisson, front: points in a cube of this size become one, scene units")
+      ->check(CLI::PositiveNumber)
+      ->type_name("SIZE");
+  app.add_option("--points", settings->most_points,
+                 "poisson, front: without --voxel, cubes are so large that no more points are left")
+      ->check(CLI::Range(std::size_t(100), std::size_t(100'000'000)))
+      ->type_name("N")
+      ->capture_default_str();
+  app.add_option("--trim", settings->trim,
+                 "poisson: cut away what is farther from the points, in distances of neighbours; "
+                 "0: nothing, the surface is closed")
+      ->check(CLI::NonNegativeNumber)
+      ->type_name("X")
+      ->capture_default_str();
+  app.add_option("--least-faces", settings->cleaning.least_faces,
+                 "Leave out pieces with fewer triangles")
+      ->type_name("N")
+      ->capture_default_str();
+  app.add_option("--fill", settings->cleaning.hole_edges, "Fill holes with up to so many edges")
+      ->check(CLI::Range(3, 1'000'000))
+      ->type_name("EDGES");
+  app.add_option("--simplify", settings->cleaning.most_faces,
+                 "Collapse edges until so many triangles are left")
+      ->check(CLI::Range(std::size_t(4), std::size_t(4'000'000'000)))
+      ->type_name("FACES");
+  app.add_flag("--json", settings->json, "Print counts and report as JSON");
+  return [settings](const RunControl& control) { run(*settings, control); };
+}
+
+}  // namespace gigaray::cli

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Gigaray authors
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "gigaray/meshing/cloud.h"
+#include "gigaray/run_control.h"
+
+namespace gigaray::cli {
+
+/// What `cloud` and `mesh` start from.
+struct SurfaceInput {
+  std::filesystem::path result, input;
+  std::string views = "all";
+  PointOptions points;
+
+  void declare(CLI::App& app);
+
+  /// The chosen views with cameras in scene units. Tells when these are not known.
+  DepthViews open(const RunControl& control) const;
+};
+
+/// What became of the pixels, for people and for programs.
+void print(const PointCounts& counts, int num_views, const PointOptions& options);
+nlohmann::ordered_json as_json(const PointCounts& counts);
+
+}  // namespace gigaray::cli

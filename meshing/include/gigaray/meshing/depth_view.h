@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Gigaray authors
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "gigaray/camera.h"
+#include "gigaray/image.h"
+#include "gigaray/run_control.h"
+
+namespace gigaray {
+
+/// A view with its depth: what points and surfaces are made of. All maps have the camera's size.
+struct DepthView {
+  Camera camera;
+  FloatMap inverse_depth;       ///< (v, u), 1 / scene unit; NaN: no estimate
+  FloatMap confidence;          ///< (v, u), [0, 1]; empty: nothing is known of it
+  Image<std::uint8_t> picture;  ///< sRGB (v, u, c)
+};
+
+/// All views of a result. `read` is called from one thread, for the same view more than once; what
+/// it throws is passed on.
+struct DepthViews {
+  std::vector<Camera> cameras;
+  std::function<DepthView(int view)> read;
+
+  int size() const { return int(cameras.size()); }
+};
+
+/// How far inverse depths may be apart and still belong to one surface, 1 / scene unit.
+struct SurfaceTolerance {
+  /// Between views, and what depth may be off: a hundredth of the range that is seen.
+  float between_views = 0;
+  /// Between neighbouring pixels at least; a slope of up to 80° is allowed too.
+  float between_pixels = 0;
+
+  /// range: of the inverse depths of all views.
+  static SurfaceTolerance of(InverseDepthRange range);
+};
+
+/// What all views see on the whole, from a sample of their pixels.
+struct Survey {
+  InverseDepthRange range;  ///< of the inverse depths, without the outermost 0.1 % on both sides
+  /// Distance of neighbouring pixels' points that a quarter of all pixels stay below, scene units.
+  double spacing = 0;
+};
+
+/// Throws Error(kBadInput) when no view has an estimate.
+Survey survey(const DepthViews& views, const RunControl& control);
+
+/// Do two neighbouring pixels of a view show one surface?
+bool is_one_surface(float inverse_depth, float other, double focal_px, float between_pixels);
+
+}  // namespace gigaray

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Gigaray authors
+#pragma once
+
+#include <span>
+
+#include "gigaray/meshing/depth_view.h"
+#include "gigaray/point_cloud.h"
+
+namespace gigaray {
+
+/// Which pixels of a view become points.
+struct PointOptions {
+  double least_confidence = 0.1;  ///< Points that are less sure are left out. [0, 1]
+  /// Other views that must see the point where it is; fewer where there are fewer views. ≥ 0
+  int least_support = 2;
+  int most_witnesses = 12;  ///< Other views that are asked, spread over all that look the same way.
+};
+
+/// What became of pixels, in the order of the filters.
+struct PointCounts {
+  std::uint64_t pixels = 0;
+  std::uint64_t without_estimate = 0;
+  std::uint64_t unsure = 0;        ///< less confidence than asked for
+  std::uint64_t too_far = 0;       ///< depth could as well be half or twice as large
+  std::uint64_t contradicted = 0;  ///< more views see through the point than see it
+  std::uint64_t unconfirmed = 0;   ///< fewer views see it than asked for
+  std::uint64_t points = 0;        ///< what is left
+
+  PointCounts& operator+=(const PointCounts& other);
+};
+
+/// Other views that can bear witness of what a view sees: those that look within 45° of it, the
+/// nearest ones and, with even steps, farther ones.
+std::vector<int> witnesses_of(const std::vector<Camera>& cameras, int view, int most);
+
+/// 1 for the pixels of a view that become points, and how many witnesses see each there (v, u).
+/// Throws Error(kInvalidArgument) for options out of range.
+struct KeptPixels {
+  Mask keep;
+  FloatMap support;
+  PointCounts counts;
+};
+KeptPixels keep_pixels(const DepthView& view, std::span<const DepthView> witnesses,
+                       SurfaceTolerance tolerance, const PointOptions& options);
+
+/// Unit normals of the pixels' surfaces towards the camera, (v, u, xyz), scene frame; from the
+/// neighbours that belong to the same surface, else towards the camera. NaN: no estimate.
+FloatMap normals_of(const DepthView& view, SurfaceTolerance tolerance);
+
+/// Points of the pixels that are kept, row by row. Normals as `normals_of` gives them.
+PointCloud points_of(const DepthView& view, const KeptPixels& kept, SurfaceTolerance tolerance);
+
+}  // namespace gigaray

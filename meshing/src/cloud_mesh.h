@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Gigaray authors
+#pragma once
+
+#include <functional>
+
+#include "gigaray/point_cloud.h"
+#include "gigaray/surface_mesh.h"
+#include "neighbours.h"
+
+namespace gigaray {
+
+// What surfaces through points have in common.
+
+/// Which neighbour's distance is the spacing of a point.
+inline constexpr int kSpacingNeighbour = 6;
+
+/// Throws Error(kBadInput) for a cloud that no surface can be put through.
+void check_cloud(const PointCloud& cloud);
+
+/// The mean colour of the nearest points, weighted by nearness.
+Rgb8 colour_at(const Eigen::Vector3f& place, const PointCloud& cloud, const Neighbours& neighbours);
+
+/// Turns pieces over whose triangles look away from where their points were seen from.
+void turn_to_normals(SurfaceMesh& mesh, const PointCloud& cloud, const Neighbours& neighbours);
+
+}  // namespace gigaray

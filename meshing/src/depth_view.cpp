@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Gigaray authors
+#include "gigaray/meshing/depth_view.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "gigaray/error.h"
+
+namespace gigaray {
+namespace {
+
+/// Tangent of the steepest slope, 80°, that still counts as one surface.
+constexpr double kSteepest = 5.67;
+constexpr double kOutermost = 0.001;
+/// Samples of a view that tell its range.
+constexpr std::size_t kSamples = 20000;
+
+}  // namespace
+
+SurfaceTolerance SurfaceTolerance::of(InverseDepthRange range) {
+  const double span = range.max - range.min;
+  return {float(0.01 * span), float(0.01 * span)};
+}
+
+Survey survey(const DepthViews& views, const RunControl& control) {
+  std::vector<float> seen, spacings;
+  for (int view = 0; view < views.size(); ++view) {
+    control.progress("survey", view, views.size());
+    const FloatMap map = views.read(view).inverse_depth;
+    const Camera& camera = views.cameras[view];
+    const std::size_t every = std::max<std::size_t>(1, map.size() / kSamples);
+    for (std::size_t i = 0; i < map.size(); i += every) {
+      const float w = map.data()[i];
+      if (!(w > 0) || !std::isfinite(w)) continue;
+      seen.push_back(w);
+      spacings.push_back(float(1 / (w * camera.focal_u)));
+    }
+  }
+  if (seen.empty()) throw Error(ErrorCode::kBadInput, "no view has an estimate of depth");
+  const auto at = [](std::vector<float>& values, double share) {
+    const auto place = values.begin() + std::ptrdiff_t(share * double(values.size() - 1));
+    std::nth_element(values.begin(), place, values.end());
+    return double(*place);
+  };
+  Survey result;
+  result.range = {at(seen, kOutermost), at(seen, 1 - kOutermost)};
+  // One wall parallel to the pictures has no range of its own.
+  if (result.range.max - result.range.min < 0.05 * result.range.max)
+    result.range = {0.975 * result.range.max, 1.025 * result.range.max};
+  result.spacing = at(spacings, 0.25);
+  control.progress("survey", 1, 1);
+  return result;
+}
+
+bool is_one_surface(float inverse_depth, float other, double focal_px, float between_pixels) {
+  const double slope = kSteepest / focal_px * std::min(inverse_depth, other);
+  return std::abs(inverse_depth - other) <= std::max(double(between_pixels), slope);
+}
+
+}  // namespace gigaray

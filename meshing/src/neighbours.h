@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Gigaray authors
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <vector>
+
+namespace gigaray {
+
+/// Nearest points of a set (PCL's k-d tree).
+class Neighbours {
+ public:
+  explicit Neighbours(const std::vector<Eigen::Vector3f>& points);
+  ~Neighbours();
+
+  struct Found {
+    std::size_t index;
+    float distance;
+  };
+  /// The nearest ones first; fewer when there are fewer.
+  std::vector<Found> nearest(const Eigen::Vector3f& place, int count) const;
+
+  /// Of every point its distance to its `count`-th neighbour.
+  std::vector<float> spacing(int count) const;
+
+ private:
+  struct Tree;
+  std::unique_ptr<Tree> tree_;
+};
+
+}  // namespace gigaray

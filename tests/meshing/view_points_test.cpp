@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Gigaray authors
+#include "gigaray/meshing/view_points.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "support/errors.h"
+#include "support/solid_scene.h"
+
+namespace gigaray {
+namespace {
+
+using namespace testing_support;
+
+constexpr int kSize = 73;
+
+class ViewPoints : public testing::Test {
+ protected:
+  const DepthViews views = views_of(sphere(), cameras_on_an_arc(7, kSize));
+  const SurfaceTolerance tolerance = SurfaceTolerance::of(survey(views, {}).range);
+
+  std::vector<DepthView> witnesses_for(int view) const {
+    std::vector<DepthView> witnesses;
+    for (const int other : witnesses_of(views.cameras, view, 12))
+      witnesses.push_back(views.read(other));
+    return witnesses;
+  }
+};
+
+TEST_F(ViewPoints, LieOnTheSurfaceAndLookOutwards) {
+  const DepthView view = views.read(3);
+  const KeptPixels kept = keep_pixels(view, witnesses_for(3), tolerance, {});
+  const PointCloud cloud = points_of(view, kept, tolerance);
+  EXPECT_EQ(cloud.size(), kept.counts.points);
+  ASSERT_GT(cloud.size(), 1000u);
+  EXPECT_LT(distances_to(sphere(), cloud.positions).most, 1e-4);
+  std::size_t askew = 0;  // at the rim, where neighbours are on one side alone
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    EXPECT_NEAR(cloud.normals[i].norm(), 1, 1e-5);
+    askew += !(cloud.normals[i].dot(cloud.positions[i].normalized()) > 0.95);
+    EXPECT_NEAR(cloud.colours[i][0], 127.5 * (1 + cloud.positions[i].x()), 1.5);
+    EXPECT_GE(cloud.supports[i], 2);
+  }
+  EXPECT_LT(askew, 0.05 * double(cloud.size()));
+}
+
+TEST_F(ViewPoints, WhatOthersSeeThroughIsContradicted) {
+  DepthView view = views.read(3);
+  // A speck that floats before the sphere, and one behind its surface.
+  const float front = view.inverse_depth(36, 31);
+  ASSERT_GT(front, 0);
+  view.inverse_depth(36, 31) = 1.3f * front;
+  view.inverse_depth(30, 28) *= 0.8f;
+  view.inverse_depth(25, 30) = std::numeric_limits<float>::infinity();
+  view.confidence(40, 30) = 0.05f;
+  const KeptPixels kept = keep_pixels(view, witnesses_for(3), tolerance, {});
+  EXPECT_EQ(kept.keep(36, 31), 0);
+  EXPECT_EQ(kept.keep(30, 28), 0);
+  EXPECT_EQ(kept.keep(25, 30), 0);
+  EXPECT_EQ(kept.keep(40, 30), 0);
+  EXPECT_EQ(kept.keep(38, 30), 1);
+  EXPECT_EQ(kept.counts.contradicted, 1u);
+  EXPECT_EQ(kept.counts.unsure, 1u);
+  EXPECT_GE(kept.counts.unconfirmed, 1u);
+  const PointCounts& c = kept.counts;
+  EXPECT_EQ(c.pixels,
+            c.without_estimate + c.unsure + c.too_far + c.contradicted + c.unconfirmed + c.points);
+}
+
+TEST_F(ViewPoints, ALoneViewNeedsNoWitness) {
+  const KeptPixels kept = keep_pixels(views.read(0), {}, tolerance, {});
+  EXPECT_GT(kept.counts.points, 1000u);
+  EXPECT_EQ(kept.counts.unconfirmed, 0u);
+}
+
+TEST_F(ViewPoints, AbsurdOptionsAreRefused) {
+  PointOptions options;
+  options.least_support = -1;
+  expect_error(ErrorCode::kInvalidArgument, {"support", "-1"},
+               [&] { keep_pixels(views.read(0), {}, tolerance, options); });
+}
+
+TEST(Witnesses, AreSpreadAndLookTheSameWay) {
+  const std::vector<Camera> around = cameras_all_around(40, kSize);
+  for (const int other : witnesses_of(around, 7, 12))
+    EXPECT_GT(around[other].direction().dot(around[7].direction()), 0.7);
+  const std::vector<Camera> arc = cameras_on_an_arc(30, kSize);
+  const std::vector<int> chosen = witnesses_of(arc, 0, 6);
+  EXPECT_EQ(std::set<int>(chosen.begin(), chosen.end()).size(), 6u);
+  EXPECT_EQ(std::ranges::count(chosen, 0), 0);
+  EXPECT_EQ(std::ranges::count(chosen, 29), 1);  // the farthest one too
+}
+
+TEST(SurveyOfViews, NoEstimateAtAllIsNamed) {
+  DepthViews empty = views_of({"nothing", [](const Eigen::Vector3d&) { return 100.0; }},
+                              cameras_on_an_arc(3, kSize));
+  expect_error(ErrorCode::kBadInput, {"no view has an estimate"}, [&] { survey(empty, {}); });
+}
+
+TEST(SurveyOfViews, RangeAndSpacingAreThoseOfTheScene) {
+  const Survey found = survey(views_of(sphere(), cameras_on_an_arc(5, kSize)), {});
+  EXPECT_NEAR(found.range.max, 1 / 2.2, 0.02);
+  EXPECT_NEAR(found.range.min, 1 / 3.0, 0.03);
+  EXPECT_NEAR(found.spacing, 2.4 / (1.1 * kSize), 0.15 * found.spacing);
+}
+
+}  // namespace
+}  // namespace gigaray
