@@ -52,6 +52,7 @@ SurfaceMesh poisson_mesh(const PointCloud& cloud, const PoissonOptions& options)
   std::erase_if(mesh.faces, [&](const auto& face) {
     return !std::ranges::all_of(face, [&](std::uint32_t i) { return is_supported[i] != 0; });
   });
+  turn_to_normals(mesh, cloud, neighbours);
   return mesh;
 }
 

@@ -86,6 +86,15 @@ TEST(PoissonMesh, OfASphereIsWatertightWithoutAHandle) {
     EXPECT_NEAR(mesh.colours[i][0], 127.5 * (1 + mesh.positions[i].x()), 12);
 }
 
+TEST(PoissonMesh, OfAnOpenSceneLooksToTheCameras) {
+  for (const Solid& solid : {tilted_planes(), rod()}) {
+    SCOPED_TRACE(solid.name);
+    const PointCloud cloud = cloud_of(views_of(solid, cameras_on_an_arc(5, kSize)), 0.05);
+    const SurfaceMesh mesh = cleaned(poisson_mesh(cloud, {}), {}, nullptr);
+    EXPECT_GT(share_outwards(solid, mesh), 0.97);
+  }
+}
+
 TEST(PoissonMesh, IsTrimmedWhereThereAreNoPoints) {
   const PointCloud half = cloud_of(views_of(sphere(), cameras_on_an_arc(5, kSize)), 0.06);
   const SurfaceMesh trimmed = cleaned(poisson_mesh(half, {}), {}, nullptr);
