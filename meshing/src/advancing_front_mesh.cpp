@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include "cgal_mesh.h"
@@ -12,6 +13,34 @@
 #include "gigaray/meshing/cloud_mesh.h"
 
 namespace gigaray {
+namespace {
+
+/// Keeps triangles from being made that have an edge longer than allowed at its ends.
+class ShortEdges {
+ public:
+  ShortEdges(const PointCloud& cloud, std::vector<float> longest)
+      : cloud_(cloud), longest_(std::move(longest)) {}
+
+  bool allows(std::size_t a, std::size_t b) const {
+    return (cloud_.positions[a] - cloud_.positions[b]).norm() <= std::min(longest_[a], longest_[b]);
+  }
+
+  template <class Reconstruction, class Cell>
+  double operator()(const Reconstruction& reconstruction, Cell& cell, const int& index) const {
+    std::array<std::size_t, 3> corners;
+    for (int k = 0; k < 3; ++k) corners[k] = cell->vertex((index + k + 1) % 4)->info();
+    for (int k = 0; k < 3; ++k)
+      if (!allows(corners[k], corners[(k + 1) % 3])) return std::numeric_limits<double>::infinity();
+    return reconstruction.smallest_radius_delaunay_sphere(cell, index);
+  }
+
+ private:
+  const PointCloud& cloud_;
+  std::vector<float> longest_;
+};
+
+}  // namespace
+
 SurfaceMesh advancing_front_mesh(const PointCloud& cloud, const AdvancingFrontOptions& options) {
   if (!(options.longest_edge > 0))
     throw Error(ErrorCode::kInvalidArgument,
@@ -28,16 +57,8 @@ SurfaceMesh advancing_front_mesh(const PointCloud& cloud, const AdvancingFrontOp
   mesh.colours = cloud.colours;
   std::vector<std::array<std::size_t, 3>> faces;
   CGAL::advancing_front_surface_reconstruction(points.begin(), points.end(),
-                                               std::back_inserter(faces));
-  // Not as the priority of the front: a front that stops everywhere begins anew as often, and each
-  // time CGAL looks at all triangles.
-  const auto is_short = [&](std::size_t a, std::size_t b) {
-    return (cloud.positions[a] - cloud.positions[b]).norm() <= std::min(longest[a], longest[b]);
-  };
-  std::erase_if(faces, [&](const auto& face) {
-    return !is_short(face[0], face[1]) || !is_short(face[1], face[2]) ||
-           !is_short(face[2], face[0]);
-  });
+                                               std::back_inserter(faces),
+                                               ShortEdges(cloud, std::move(longest)));
   if (faces.empty()) throw Error(ErrorCode::kBadInput, "the points give no surface");
   for (const auto& face : faces)
     mesh.faces.push_back({std::uint32_t(face[0]), std::uint32_t(face[1]), std::uint32_t(face[2])});
