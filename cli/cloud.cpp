@@ -58,8 +58,8 @@ void run(const Settings& settings, const RunControl& control) {
     return;
   }
   print(report.pixels, views.size(), options.points);
-  fmt::print("merged        {} points into {}, one per cube of {:.4g}\n", report.pixels.points,
-             report.merged, report.voxel);
+  fmt::print("merged        {} points into {}, one per cube of {}{:.4g}\n", report.pixels.points,
+             report.merged, settings.cloud.voxel > 0 ? "" : "pixel size, usually ", report.voxel);
   fmt::print("outliers      {} that stand alone\n", report.outliers);
   fmt::print("{}: {} points in {:.1f} s\n", settings.output.string(), report.points, seconds);
 }
@@ -72,8 +72,8 @@ Run cloud_command(CLI::App& app) {
   settings->input.declare(app);
   app.add_option("-o,--output", settings->output, "scene.ply")->type_name("FILE")->required();
   app.add_option("--voxel", settings->cloud.voxel,
-                 "Points in a cube of this size become one, scene units (default: the usual "
-                 "distance of neighbouring pixels)")
+                 "Points in a cube of this size become one, scene units (default: the distance of "
+                 "neighbouring pixels there, in steps of two)")
       ->check(CLI::PositiveNumber)
       ->type_name("SIZE");
   app.add_option("--outliers", settings->cloud.outlier_deviations,

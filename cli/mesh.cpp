@@ -43,8 +43,8 @@ SurfaceMesh surface_of(const Settings& settings, const DepthViews& views, PointC
   control.throw_if_cancelled();
   control.progress("surface", 0, 1);
   SurfaceMesh mesh = settings.method == "poisson"
-                         ? poisson_mesh(cloud, {.spacing = 1, .trim = settings.trim})
-                         : advancing_front_mesh(cloud, {});
+                         ? poisson_mesh(cloud, {.spacing = 1, .trim = settings.trim}, control)
+                         : advancing_front_mesh(cloud, {}, control);
   control.progress("surface", 1, 1);
   return mesh;
 }

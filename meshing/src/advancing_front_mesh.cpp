@@ -15,11 +15,12 @@
 namespace gigaray {
 namespace {
 
-/// Keeps triangles from being made that have an edge longer than allowed at its ends.
+/// Keeps triangles from being made that have an edge longer than allowed at its ends. Stops the
+/// work when it is cancelled.
 class ShortEdges {
  public:
-  ShortEdges(const PointCloud& cloud, std::vector<float> longest)
-      : cloud_(cloud), longest_(std::move(longest)) {}
+  ShortEdges(const PointCloud& cloud, std::vector<float> longest, const RunControl& control)
+      : cloud_(cloud), longest_(std::move(longest)), control_(control) {}
 
   bool allows(std::size_t a, std::size_t b) const {
     return (cloud_.positions[a] - cloud_.positions[b]).norm() <= std::min(longest_[a], longest_[b]);
@@ -27,6 +28,7 @@ class ShortEdges {
 
   template <class Reconstruction, class Cell>
   double operator()(const Reconstruction& reconstruction, Cell& cell, const int& index) const {
+    control_.throw_if_cancelled();
     std::array<std::size_t, 3> corners;
     for (int k = 0; k < 3; ++k) corners[k] = cell->vertex((index + k + 1) % 4)->info();
     for (int k = 0; k < 3; ++k)
@@ -37,11 +39,13 @@ class ShortEdges {
  private:
   const PointCloud& cloud_;
   std::vector<float> longest_;
+  const RunControl& control_;
 };
 
 }  // namespace
 
-SurfaceMesh advancing_front_mesh(const PointCloud& cloud, const AdvancingFrontOptions& options) {
+SurfaceMesh advancing_front_mesh(const PointCloud& cloud, const AdvancingFrontOptions& options,
+                                 const RunControl& control) {
   if (!(options.longest_edge > 0))
     throw Error(ErrorCode::kInvalidArgument,
                 "the longest edge must be above 0, not " + std::to_string(options.longest_edge));
@@ -58,7 +62,7 @@ SurfaceMesh advancing_front_mesh(const PointCloud& cloud, const AdvancingFrontOp
   std::vector<std::array<std::size_t, 3>> faces;
   CGAL::advancing_front_surface_reconstruction(points.begin(), points.end(),
                                                std::back_inserter(faces),
-                                               ShortEdges(cloud, std::move(longest)));
+                                               ShortEdges(cloud, std::move(longest), control));
   if (faces.empty()) throw Error(ErrorCode::kBadInput, "the points give no surface");
   for (const auto& face : faces)
     mesh.faces.push_back({std::uint32_t(face[0]), std::uint32_t(face[1]), std::uint32_t(face[2])});

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "gigaray/error.h"
 #include "thin_cloud.h"
@@ -27,12 +29,29 @@ void check(const CloudOptions& options) {
     bad("a point needs 3 neighbours or more, not " + std::to_string(options.neighbours));
 }
 
+double voxel_of(double voxel, int level) { return std::ldexp(voxel, level); }
+
 /// A coordinate beyond 2^30 voxels has no place in a grid, and no precision.
-void check_extent(const PointCloud& cloud, double voxel) {
-  for (const Eigen::Vector3f& position : cloud.positions)
-    if (!(double(position.cwiseAbs().maxCoeff()) < voxel * (1 << 30)))
+void check_extent(const PointCloud& cloud, double voxel, std::span<const int> levels) {
+  for (std::size_t i = 0; i < cloud.size(); ++i)
+    if (!(double(cloud.positions[i].cwiseAbs().maxCoeff()) <
+          voxel_of(voxel, levels[i]) * (1 << 30)))
       throw Error(ErrorCode::kInvalidArgument, "voxels with a side of " + std::to_string(voxel) +
                                                    " are too small for a scene of this size");
+}
+
+/// Levels of the voxels that come nearest to the distance of neighbouring pixels at each point: a
+/// voxel has 2^level times the side of level 0.
+std::vector<int> levels_of(const PointCloud& cloud, const Camera& camera, double voxel) {
+  constexpr double kMost = 60;  // far beyond any scene
+  std::vector<int> levels;
+  levels.reserve(cloud.size());
+  for (const Eigen::Vector3f& position : cloud.positions) {
+    const double depth = camera.project(position.cast<double>()).z();
+    const double level = std::round(std::log2(depth / camera.focal_u / voxel));
+    levels.push_back(int(std::clamp(level, -kMost, kMost)));
+  }
+  return levels;
 }
 
 /// Appends points i of the tile for which keep(i).
@@ -55,32 +74,34 @@ TileStore store_for(double voxel, std::size_t memory) {
 }
 
 /// Points of all views that are kept, into the store.
-void collect(const DepthViews& views, const PointOptions& options, SurfaceTolerance tolerance,
+void collect(const DepthViews& views, const CloudOptions& options, SurfaceTolerance tolerance,
              TileStore& store, CloudReport& report, const RunControl& control) {
   for (int view = 0; view < views.size(); ++view) {
     control.throw_if_cancelled();
     control.progress("points", view, views.size());
     std::vector<DepthView> witnesses;
-    for (const int witness : witnesses_of(views.cameras, view, options.most_witnesses))
+    for (const int witness : witnesses_of(views.cameras, view, options.points.most_witnesses))
       witnesses.push_back(views.read(witness));
     const DepthView own = views.read(view);
-    const KeptPixels kept = keep_pixels(own, witnesses, tolerance, options);
+    const KeptPixels kept = keep_pixels(own, witnesses, tolerance, options.points);
     report.pixels += kept.counts;
     const PointCloud points = points_of(own, kept, tolerance);
-    check_extent(points, report.voxel);
-    store.add(points);
+    const std::vector<int> levels = options.voxel > 0 ? std::vector<int>(points.size(), 0)
+                                                      : levels_of(points, own.camera, report.voxel);
+    check_extent(points, report.voxel, levels);
+    store.add(points, levels);
   }
   control.progress("points", 1, 1);
 }
 
-/// Merges the points of every tile and hands them on, with their halo: work(tile, origin).
+/// Merges the points of every tile and hands them on, with their halo: work(points, tile).
 template <class Work>
 void merge_tiles(TileStore& store, double voxel, const RunControl& control, Work work) {
   const std::vector<TileIndex> tiles = store.tiles();
   for (std::size_t i = 0; i < tiles.size(); ++i) {
     control.throw_if_cancelled();
     control.progress("merge", double(i), double(tiles.size()));
-    work(merge_points(store.take(tiles[i]), voxel), store.origin(tiles[i]));
+    work(merge_points(store.take(tiles[i]), voxel_of(voxel, tiles[i].level)), tiles[i]);
   }
 }
 
@@ -88,15 +109,18 @@ void merge_tiles(TileStore& store, double voxel, const RunControl& control, Work
 void thin(TileStore& store, const CloudOptions& options, double& voxel, const RunControl& control) {
   for (;;) {
     PointCloud all;
-    merge_tiles(store, voxel, control, [&](const PointCloud& tile, const Eigen::Vector3d& origin) {
-      append(all,
-             chosen(tile, origin, [&](std::size_t k) { return store.is_own(tile.positions[k]); }));
-    });
+    std::vector<int> levels;
+    const auto gather = [&](const PointCloud& points, const TileIndex& tile) {
+      append(all, chosen(points, store.origin(tile),
+                         [&](std::size_t k) { return store.is_own(tile, points.positions[k]); }));
+      levels.resize(all.size(), tile.level);
+    };
+    merge_tiles(store, voxel, control, gather);
     // Points on a surface: half as many when the voxel has twice the area.
     const double excess = double(all.size()) / double(options.most_points);
     if (excess > 1) voxel *= 1.05 * std::sqrt(excess);
     store = store_for(voxel, options.memory);
-    store.add(all);
+    store.add(all, levels);
     if (excess <= 1) return;
   }
 }
@@ -112,19 +136,19 @@ CloudReport build_cloud(const DepthViews& views, const CloudOptions& options,
   CloudReport report;
   report.voxel = options.voxel > 0 ? options.voxel : seen.spacing;
   TileStore store = store_for(report.voxel, options.memory);
-  collect(views, options.points, tolerance, store, report, control);
+  collect(views, options, tolerance, store, report, control);
   report.bytes_on_disk = store.bytes_on_disk();
   if (options.most_points > 0) thin(store, options, report.voxel, control);
 
   report.tiles = int(store.tiles().size());
-  const auto finish = [&](PointCloud tile, const Eigen::Vector3d& origin) {
-    smooth_normals(tile, options.neighbours);
-    std::vector<std::uint8_t> in_company(tile.size(), 1);
+  const auto finish = [&](PointCloud points, const TileIndex& tile) {
+    smooth_normals(points, options.neighbours);
+    std::vector<std::uint8_t> in_company(points.size(), 1);
     if (options.outlier_deviations > 0)
-      in_company = points_in_company(tile, options.neighbours, options.outlier_deviations);
+      in_company = points_in_company(points, options.neighbours, options.outlier_deviations);
     std::uint64_t own = 0;
-    const PointCloud cloud = chosen(tile, origin, [&](std::size_t k) {
-      if (!store.is_own(tile.positions[k])) return false;
+    const PointCloud cloud = chosen(points, store.origin(tile), [&](std::size_t k) {
+      if (!store.is_own(tile, points.positions[k])) return false;
       ++own;
       return in_company[k] != 0;
     });

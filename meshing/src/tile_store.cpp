@@ -2,64 +2,37 @@
 // Copyright (c) 2026 The Gigaray authors
 #include "tile_store.h"
 
-#include <unistd.h>
-
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
-#include <cstdlib>
-#include <cstring>
 #include <filesystem>
-#include <string>
-#include <utility>
 
 #include "gigaray/error.h"
 
 namespace gigaray {
-namespace {
-
-[[noreturn]] void io_failed(const std::string& what) {
-  throw Error(ErrorCode::kIo, "points in the folder for temporary files (TMPDIR): " + what +
-                                  " failed (" + std::strerror(errno) + ")");
-}
-
-}  // namespace
 
 TileStore::TileStore(double side, double halo, std::size_t memory)
     : side_(side), halo_(halo), most_points_(std::max<std::size_t>(memory / sizeof(Record), 1)) {
   GIGARAY_CHECK(side > 0 && halo >= 0 && halo < side / 2);
 }
 
-TileStore::~TileStore() {
-  if (file_ >= 0) close(file_);
-}
+double TileStore::side(int level) const { return std::ldexp(side_, level); }
 
-TileStore::TileStore(TileStore&& other) noexcept { *this = std::move(other); }
-
-TileStore& TileStore::operator=(TileStore&& other) noexcept {
-  std::swap(side_, other.side_);
-  std::swap(halo_, other.halo_);
-  std::swap(most_points_, other.most_points_);
-  std::swap(points_in_memory_, other.points_in_memory_);
-  std::swap(tiles_, other.tiles_);
-  std::swap(file_, other.file_);
-  std::swap(file_size_, other.file_size_);
-  return *this;
-}
-
-void TileStore::add(const PointCloud& cloud) {
+void TileStore::add(const PointCloud& cloud, std::span<const int> levels) {
+  GIGARAY_CHECK(levels.size() == cloud.size());
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     const Eigen::Vector3d position = cloud.positions[i].cast<double>();
-    TileIndex first, last, own;
+    const double side = this->side(levels[i]), halo = std::ldexp(halo_, levels[i]);
+    std::array<int, 3> first, last;
+    TileIndex own{levels[i], {}};
     for (int k = 0; k < 3; ++k) {
-      first[k] = int(std::floor((position[k] - halo_) / side_));
-      last[k] = int(std::floor((position[k] + halo_) / side_));
-      own[k] = int(std::floor(position[k] / side_));
+      first[k] = int(std::floor((position[k] - halo) / side));
+      last[k] = int(std::floor((position[k] + halo) / side));
+      own.place[k] = int(std::floor(position[k] / side));
     }
     for (int x = first[0]; x <= last[0]; ++x)
       for (int y = first[1]; y <= last[1]; ++y)
         for (int z = first[2]; z <= last[2]; ++z) {
-          const TileIndex index{x, y, z};
+          const TileIndex index{levels[i], {x, y, z}};
           const Eigen::Vector3f relative = (position - origin(index)).cast<float>();
           const Eigen::Vector3f& normal = cloud.normals[i];
           Tile& tile = tiles_[index];
@@ -75,21 +48,11 @@ void TileStore::add(const PointCloud& cloud) {
 }
 
 void TileStore::spill() {
-  if (file_ < 0) {
-    std::string name = std::filesystem::temp_directory_path() / "gigaray-points-XXXXXX";
-    file_ = mkstemp(name.data());
-    if (file_ < 0) io_failed("making a file");
-    unlink(name.c_str());
-  }
+  if (!file_.is_open()) file_ = ScratchFile(std::filesystem::temp_directory_path());
   for (auto& [index, tile] : tiles_) {
     if (tile.points.empty()) continue;
     const std::size_t bytes = tile.points.size() * sizeof(Record);
-    const char* begin = reinterpret_cast<const char*>(tile.points.data());
-    for (std::size_t done = 0; done < bytes;) {
-      const ssize_t written = pwrite(file_, begin + done, bytes - done, off_t(file_size_ + done));
-      if (written <= 0) io_failed("writing");
-      done += std::size_t(written);
-    }
+    file_.write(file_size_, bytes, tile.points.data());
     tile.on_disk.push_back({file_size_, tile.points.size()});
     file_size_ += bytes;
     tile.points = {};
@@ -105,25 +68,20 @@ std::vector<TileIndex> TileStore::tiles() const {
 }
 
 Eigen::Vector3d TileStore::origin(const TileIndex& tile) const {
-  return side_ * Eigen::Vector3d(tile[0], tile[1], tile[2]);
+  return side(tile.level) * Eigen::Vector3d(tile.place[0], tile.place[1], tile.place[2]);
 }
 
-bool TileStore::is_own(const Eigen::Vector3f& relative) const {
-  return (relative.array() >= 0).all() && (relative.array() < float(side_)).all();
+bool TileStore::is_own(const TileIndex& tile, const Eigen::Vector3f& relative) const {
+  return (relative.array() >= 0).all() && (relative.array() < float(side(tile.level))).all();
 }
 
 PointCloud TileStore::take(const TileIndex& index) {
   Tile& tile = tiles_.at(index);
   std::vector<Record> records;
   for (const Piece& piece : tile.on_disk) {
-    const std::size_t before = records.size(), bytes = piece.count * sizeof(Record);
+    const std::size_t before = records.size();
     records.resize(before + piece.count);
-    char* begin = reinterpret_cast<char*>(records.data() + before);
-    for (std::size_t done = 0; done < bytes;) {
-      const ssize_t got = pread(file_, begin + done, bytes - done, off_t(piece.offset + done));
-      if (got <= 0) io_failed("reading");
-      done += std::size_t(got);
-    }
+    file_.read(piece.offset, piece.count * sizeof(Record), records.data() + before);
   }
   records.insert(records.end(), tile.points.begin(), tile.points.end());
   points_in_memory_ -= tile.points.size();

@@ -2,36 +2,42 @@
 // Copyright (c) 2026 The Gigaray authors
 #pragma once
 
+#include <array>
+#include <compare>
 #include <cstdint>
 #include <map>
-#include <tuple>
+#include <span>
 #include <vector>
 
 #include "gigaray/point_cloud.h"
+#include "gigaray/scratch_file.h"
 
 namespace gigaray {
 
-/// Cube of space by its place in the grid of cubes.
-using TileIndex = std::array<int, 3>;
+/// Cube of space: its place in the grid of cubes of its level. Cubes are twice as large on the next
+/// level.
+struct TileIndex {
+  int level = 0;
+  std::array<int, 3> place{};
+  auto operator<=>(const TileIndex&) const = default;
+};
 
-/// Points sorted into cubes of space, on disk where they are more than memory may hold: in a file
-/// of the folder for temporary files that has no name, so that nothing stays behind. A point is in
-/// every cube whose border is less than `halo` away. Not thread-safe. Throws Error(kIo).
+/// Points sorted into cubes of space, on disk where they are more than memory may hold. A point is
+/// in every cube of its level whose border is less than the level's halo away. Not thread-safe.
+/// Throws Error(kIo).
 class TileStore {
  public:
-  /// side, halo: scene units; halo < side / 2.
+  /// side, halo: of level 0, scene units; halo < side / 2. memory: bytes.
   TileStore(double side, double halo, std::size_t memory);
-  ~TileStore();
-  TileStore(TileStore&& other) noexcept;
-  TileStore& operator=(TileStore&& other) noexcept;
 
-  void add(const PointCloud& cloud);
+  /// levels: one per point.
+  void add(const PointCloud& cloud, std::span<const int> levels);
 
   std::vector<TileIndex> tiles() const;  ///< those that hold a point that is their own, in order
   /// All points of a tile and its halo, relative to origin(tile), and forgets them.
   PointCloud take(const TileIndex& tile);
   Eigen::Vector3d origin(const TileIndex& tile) const;
-  bool is_own(const Eigen::Vector3f& relative) const;
+  bool is_own(const TileIndex& tile, const Eigen::Vector3f& relative) const;
 
   std::uint64_t bytes_on_disk() const { return file_size_; }
 
@@ -53,12 +59,13 @@ class TileStore {
     bool has_own = false;
   };
 
+  double side(int level) const;
   void spill();
 
   double side_ = 0, halo_ = 0;
   std::size_t most_points_ = 0, points_in_memory_ = 0;
   std::map<TileIndex, Tile> tiles_;
-  int file_ = -1;
+  ScratchFile file_;
   std::uint64_t file_size_ = 0;
 };
 

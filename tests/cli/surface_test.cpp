@@ -78,7 +78,7 @@ TEST_F(SurfaceCommands, LargerCubesGiveFewerPoints) {
 }
 
 TEST_F(SurfaceCommands, MeshOfEveryMethodAndFormat) {
-  for (const std::string method : {"grid", "front"}) {
+  for (const std::string method : {"grid", "poisson", "front"}) {
     const Result result = run("mesh depth --json -o scene.ply --method " + method);
     ASSERT_EQ(result.exit_code, 0) << result.err;
     const json mesh = json::parse(result.out).at("mesh");

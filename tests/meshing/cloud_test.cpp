@@ -96,6 +96,24 @@ TEST(Cloud, CubesGrowUntilFewEnoughPointsAreLeft) {
   EXPECT_LT(distances_to(sphere(), cloud.positions).most, 0.02);
 }
 
+TEST(Cloud, NearAndFarPartsKeepWhatPixelsShow) {
+  // A ball before a wall eight times as far.
+  const Solid solid{"ball and wall",
+                    [](const Eigen::Vector3d& x) { return std::min(x.norm() - 0.5, 20 - x.z()); }};
+  const DepthViews views = views_of(solid, cameras_on_an_arc(5, kSize));
+  const PointCloud cloud = cloud_of(views, {});
+  const auto is_near = [](const Eigen::Vector3f& p) { return p.z() < 10; };
+  const auto near = double(std::ranges::count_if(cloud.positions, is_near));
+  const FloatMap centre = views.read(2).inverse_depth;
+  const auto near_pixels =
+      double(std::ranges::count_if(centre, [](float w) { return w > 1 / 10.0f; }));
+  EXPECT_GT(near, 0.7 * near_pixels);
+  EXPECT_LT(near, 2.5 * near_pixels);
+  const double far = double(cloud.size()) - near, far_pixels = double(centre.size()) - near_pixels;
+  EXPECT_GT(far, 0.5 * far_pixels);
+  EXPECT_LT(far, 2.5 * far_pixels);
+}
+
 TEST(Cloud, NothingLeftAndAbsurdOptionsAreNamed) {
   DepthViews views = views_of(sphere(), cameras_on_an_arc(5, kSize));
   CloudOptions options;
@@ -179,17 +197,21 @@ TEST(TileStore, EveryPointIsOwnOnceAndKnownToItsNeighbours) {
   std::mt19937 random(3);
   std::uniform_real_distribution<float> uniform(-2, 2);
   std::vector<Eigen::Vector3f> places;
-  for (int i = 0; i < 500; ++i)
+  std::vector<int> levels;
+  for (int i = 0; i < 500; ++i) {
     places.emplace_back(uniform(random), uniform(random), uniform(random));
-  store.add(points(places));
+    levels.push_back(i % 3 - 1);
+  }
+  store.add(points(places), levels);
   std::size_t own = 0, all = 0;
   for (const TileIndex& tile : store.tiles()) {
+    const float side = std::ldexp(1.0f, tile.level);
     const PointCloud cloud = store.take(tile);
     all += cloud.size();
     for (const Eigen::Vector3f& position : cloud.positions) {
-      own += store.is_own(position);
-      EXPECT_GE(position.minCoeff(), -0.2001f);
-      EXPECT_LE(position.maxCoeff(), 1.2001f);
+      own += store.is_own(tile, position);
+      EXPECT_GE(position.minCoeff(), -0.2001f * side);
+      EXPECT_LE(position.maxCoeff(), 1.2001f * side);
     }
   }
   EXPECT_EQ(own, places.size());

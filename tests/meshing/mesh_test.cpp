@@ -74,7 +74,7 @@ TEST(GridMesh, ASecondViewAddsWhatTheFirstDoesNotShow) {
 
 TEST(PoissonMesh, OfASphereIsWatertightWithoutAHandle) {
   const PointCloud cloud = cloud_of(views_of(sphere(), cameras_all_around(24, kSize)), 0.06);
-  const SurfaceMesh mesh = cleaned(poisson_mesh(cloud, {}), {}, nullptr);
+  const SurfaceMesh mesh = cleaned(poisson_mesh(cloud, {}, {}), {}, nullptr);
   const MeshReport report = report_of(mesh);
   EXPECT_TRUE(report.is_watertight);
   EXPECT_EQ(report.components, 1u);
@@ -90,15 +90,39 @@ TEST(PoissonMesh, OfAnOpenSceneLooksToTheCameras) {
   for (const Solid& solid : {tilted_planes(), rod()}) {
     SCOPED_TRACE(solid.name);
     const PointCloud cloud = cloud_of(views_of(solid, cameras_on_an_arc(5, kSize)), 0.05);
-    const SurfaceMesh mesh = cleaned(poisson_mesh(cloud, {}), {}, nullptr);
+    const SurfaceMesh mesh = cleaned(poisson_mesh(cloud, {}, {}), {}, nullptr);
     EXPECT_GT(share_outwards(solid, mesh), 0.97);
   }
 }
 
+TEST(PoissonMesh, FindsEveryPieceAndIsTheSameAgain) {
+  const Solid balls{"nine balls", [](const Eigen::Vector3d& x) {
+                      const Eigen::Vector3d nearest(std::clamp(std::round(x.x()), -1.0, 1.0),
+                                                    std::clamp(std::round(x.y()), -1.0, 1.0), 0);
+                      return (x - nearest).norm() - 0.25;
+                    }};
+  const PointCloud cloud = cloud_of(views_of(balls, cameras_all_around(24, kSize)), 0.06);
+  const SurfaceMesh mesh = cleaned(poisson_mesh(cloud, {}, {}), {}, nullptr);
+  EXPECT_EQ(report_of(mesh).components, 9u);
+  const SurfaceMesh again = cleaned(poisson_mesh(cloud, {}, {}), {}, nullptr);
+  EXPECT_TRUE(again.positions == mesh.positions);
+  EXPECT_TRUE(again.faces == mesh.faces);
+}
+
+TEST(CloudMeshes, StopWhenCancelled) {
+  const PointCloud cloud = cloud_of(views_of(sphere(), cameras_on_an_arc(5, kSize)), 0.06);
+  RunControl control;
+  control.cancel();
+  expect_error(ErrorCode::kCancelled, {"stopped"}, [&] { poisson_mesh(cloud, {}, control); });
+  expect_error(ErrorCode::kCancelled, {"stopped"},
+               [&] { advancing_front_mesh(cloud, {}, control); });
+}
+
 TEST(PoissonMesh, IsTrimmedWhereThereAreNoPoints) {
   const PointCloud half = cloud_of(views_of(sphere(), cameras_on_an_arc(5, kSize)), 0.06);
-  const SurfaceMesh trimmed = cleaned(poisson_mesh(half, {}), {}, nullptr);
-  const SurfaceMesh closed = cleaned(poisson_mesh(half, {.spacing = 1, .trim = 0}), {}, nullptr);
+  const SurfaceMesh trimmed = cleaned(poisson_mesh(half, {}, {}), {}, nullptr);
+  const SurfaceMesh closed =
+      cleaned(poisson_mesh(half, {.spacing = 1, .trim = 0}, {}), {}, nullptr);
   EXPECT_GT(report_of(trimmed).boundary_edges, 0u);
   EXPECT_LT(report_of(trimmed).area, report_of(closed).area);
   EXPECT_LT(distances_to(sphere(), trimmed.positions).most, 0.1);
@@ -108,7 +132,7 @@ TEST(AdvancingFrontMesh, GoesThroughThePointsAndLooksOutwards) {
   for (const Solid& solid : {sphere(), box()}) {
     SCOPED_TRACE(solid.name);
     const PointCloud cloud = cloud_of(views_of(solid, cameras_all_around(24, kSize)), 0.06);
-    const SurfaceMesh mesh = cleaned(advancing_front_mesh(cloud, {}), {}, nullptr);
+    const SurfaceMesh mesh = cleaned(advancing_front_mesh(cloud, {}, {}), {}, nullptr);
     EXPECT_LT(distances_to(solid, mesh.positions).most, 0.03);
     EXPECT_GT(share_outwards(solid, mesh), 0.97);
     EXPECT_EQ(report_of(mesh).genus, 0u);
@@ -118,18 +142,18 @@ TEST(AdvancingFrontMesh, GoesThroughThePointsAndLooksOutwards) {
 TEST(CloudMeshes, WhatGivesNoSurfaceIsNamed) {
   PointCloud cloud = cloud_of(views_of(sphere(), cameras_on_an_arc(3, kSize)), 0.1);
   expect_error(ErrorCode::kInvalidArgument, {"spacing"},
-               [&] { poisson_mesh(cloud, {.spacing = 0, .trim = 1}); });
+               [&] { poisson_mesh(cloud, {.spacing = 0, .trim = 1}, {}); });
   expect_error(ErrorCode::kInvalidArgument, {"edge"},
-               [&] { advancing_front_mesh(cloud, {.longest_edge = std::nanf("")}); });
+               [&] { advancing_front_mesh(cloud, {.longest_edge = std::nanf("")}, {}); });
   PointCloud few;
   append(few, cloud);
   few.positions.resize(3);
-  expect_error(ErrorCode::kBadInput, {"10 points"}, [&] { poisson_mesh(few, {}); });
+  expect_error(ErrorCode::kBadInput, {"10 points"}, [&] { poisson_mesh(few, {}, {}); });
   PointCloud heap = cloud;
   std::ranges::fill(heap.positions, Eigen::Vector3f(1, 2, 3));
-  expect_error(ErrorCode::kBadInput, {"same place"}, [&] { advancing_front_mesh(heap, {}); });
+  expect_error(ErrorCode::kBadInput, {"same place"}, [&] { advancing_front_mesh(heap, {}, {}); });
   cloud.positions[5].x() = std::nanf("");
-  expect_error(ErrorCode::kBadInput, {"not finite"}, [&] { poisson_mesh(cloud, {}); });
+  expect_error(ErrorCode::kBadInput, {"not finite"}, [&] { poisson_mesh(cloud, {}, {}); });
 }
 
 /// A closed box with 12 triangles, and what can be wrong with it.

@@ -110,7 +110,7 @@ inline DepthViews views_of(const Solid& solid, std::vector<Camera> cameras,
         double z = 0.5;
         const Eigen::Vector3d step = camera.back_project(u, v, 1) - camera.position();
         double gap = 1;
-        for (int i = 0; i < 200 && z < 8 && std::abs(gap) > 1e-6; ++i) {
+        for (int i = 0; i < 200 && z < 60 && std::abs(gap) > 1e-6; ++i) {
           gap = solid.distance(camera.position() + z * step);
           z += gap / step.norm();
         }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "gigaray/image.h"
+#include "gigaray/scratch_file.h"
 
 namespace gigaray {
 
@@ -36,9 +37,6 @@ class RowStore {
   RowStore() = default;
   /// folder: where the file goes; empty keeps the rows in memory.
   RowStore(int rows, std::size_t row_bytes, const std::string& folder);
-  RowStore(RowStore&&) noexcept;
-  RowStore& operator=(RowStore&&) noexcept;
-  ~RowStore();
 
   bool empty() const { return rows_ == 0; }
   std::size_t row_bytes() const { return row_bytes_; }
@@ -53,13 +51,10 @@ class RowStore {
   void close(RowRange rows, const std::byte* opened);
 
  private:
-  void close_file();
-
-  std::string folder_;
   int rows_ = 0;
   std::size_t row_bytes_ = 0;
   AlignedBytes memory_;
-  int file_ = -1;
+  ScratchFile file_;
 };
 
 }  // namespace gigaray

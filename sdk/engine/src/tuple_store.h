@@ -2,13 +2,12 @@
 // Copyright (c) 2026 The Gigaray authors
 #pragma once
 
-#include <cstdio>
 #include <functional>
-#include <memory>
 #include <string>
 #include <vector>
 
 #include "gigaray/reconstruct.h"
+#include "gigaray/scratch_file.h"
 
 namespace gigaray {
 
@@ -28,7 +27,7 @@ class TupleStore {
 
   std::string folder_;
   std::size_t spilled_ = 0;
-  std::shared_ptr<std::FILE> file_;
+  ScratchFile file_;
   std::vector<RayTuple> recent_;
 };
 

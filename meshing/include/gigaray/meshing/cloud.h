@@ -13,8 +13,9 @@ namespace gigaray {
 
 struct CloudOptions {
   PointOptions points;
-  /// Points in a cube with this side become one, scene units; 0: Survey::spacing, so that little is
-  /// lost where the scene is near.
+  /// Points in a cube with this side become one, scene units; 0: the distance of neighbouring
+  /// pixels there, Survey::spacing times a power of two, so that near and far parts keep what was
+  /// seen of them.
   double voxel = 0;
   /// Cubes are enlarged until no more points are left than this; 0: any number may be.
   std::size_t most_points = 0;
@@ -30,7 +31,7 @@ struct CloudReport {
   std::uint64_t merged = 0;    ///< points after merging,
   std::uint64_t outliers = 0;  ///< those of them that stand alone,
   std::uint64_t points = 0;    ///< and the rest, which is the cloud
-  double voxel = 0;            ///< scene units
+  double voxel = 0;            ///< scene units; with voxels of several sizes the usual one
   int tiles = 0;               ///< cubes that were worked on one after the other
   std::uint64_t bytes_on_disk = 0;
 };

@@ -3,23 +3,26 @@
 #pragma once
 
 #include "gigaray/point_cloud.h"
+#include "gigaray/run_control.h"
 #include "gigaray/surface_mesh.h"
 
 namespace gigaray {
 
 // Surfaces through points (CGAL). Colours are those of the nearest points. Distances are measured
 // in the usual distance of a point from its neighbours, there, so that far and near parts of a
-// scene are treated alike. Both throw Error(kInvalidArgument) for options and Error(kBadInput) when
-// the points are too few or give no surface.
+// scene are treated alike. The same points give the same surface. Both throw
+// Error(kInvalidArgument) for options, Error(kBadInput) when the points are too few or give no
+// surface, and kCancelled.
 
 struct PoissonOptions {
-  double spacing = 1;  ///< Size of the triangles, in mean distances of neighbouring points. > 0
+  double spacing = 1;  ///< Size of the triangles. > 0
   /// Vertices are cut away that are farther from the next point; 0: none, the surface is closed.
   double trim = 2;
 };
 
 /// Smooth, closes what is not seen (Kazhdan et al. 2006; trimmed). Needs normals.
-SurfaceMesh poisson_mesh(const PointCloud& cloud, const PoissonOptions& options);
+SurfaceMesh poisson_mesh(const PointCloud& cloud, const PoissonOptions& options,
+                         const RunControl& control);
 
 struct AdvancingFrontOptions {
   /// No triangle has an edge longer than this.
@@ -28,6 +31,7 @@ struct AdvancingFrontOptions {
 
 /// Triangles between the points themselves (Cohen-Steiner and Da 2004): keeps what is sharp and
 /// thin, interpolates noise too.
-SurfaceMesh advancing_front_mesh(const PointCloud& cloud, const AdvancingFrontOptions& options);
+SurfaceMesh advancing_front_mesh(const PointCloud& cloud, const AdvancingFrontOptions& options,
+                                 const RunControl& control);
 
 }  // namespace gigaray

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Gigaray authors
+#pragma once
+
+#include "gigaray/light_field.h"
+#include "gigaray/meshing/depth_view.h"
+#include "support/solid_scene.h"
+
+namespace gigaray::benchmarks {
+
+/// Pictures of a solid with texture that stands in a textured, spherical room.
+LightField photographed(const testing_support::Solid& solid, std::vector<Camera> cameras);
+
+/// Depth of every view, computed from the pictures by the engine with its usual options; the room
+/// is masked.
+DepthViews computed_views(const testing_support::Solid& solid, std::vector<Camera> cameras);
+
+}  // namespace gigaray::benchmarks
