@@ -51,7 +51,7 @@ SurfaceMesh advancing_front_mesh(const PointCloud& cloud, const AdvancingFrontOp
                 "the longest edge must be above 0, not " + std::to_string(options.longest_edge));
   check_cloud(cloud);
   const Neighbours neighbours(cloud.positions);
-  std::vector<float> longest = neighbours.spacing(kSpacingNeighbour);
+  std::vector<float> longest = neighbours.spacing();
   for (float& length : longest) length *= float(options.longest_edge);
   std::vector<Kernel::Point_3> points;
   for (const Eigen::Vector3f& p : cloud.positions) points.emplace_back(p.x(), p.y(), p.z());

@@ -12,9 +12,6 @@ namespace gigaray {
 
 // What surfaces through points have in common.
 
-/// Which neighbour's distance is the spacing of a point.
-inline constexpr int kSpacingNeighbour = 6;
-
 /// Throws Error(kBadInput) for a cloud that no surface can be put through.
 void check_cloud(const PointCloud& cloud);
 

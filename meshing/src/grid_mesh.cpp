@@ -55,7 +55,8 @@ class Builder {
         vertices_(kept.keep.width(), kept.keep.height(), 1, kNoVertex),
         mesh_(mesh) {}
 
-  /// Adds the triangles of all pixels; what the view shows of the model now.
+  /// Adds the triangles of all pixels; what the view shows of the model now. Without the rims, so
+  /// that another view may close a hole of a single pixel.
   FloatMap add() {
     const int width = kept_.keep.width(), height = kept_.keep.height();
     for (int v = 0; v + 1 < height; ++v)
@@ -72,8 +73,9 @@ class Builder {
         }
       }
     FloatMap shown(width, height, 1, kNoEstimate);
-    for (std::size_t i = 0; i < shown.size(); ++i)
-      if (kept_.keep.data()[i]) shown.data()[i] = view_.inverse_depth.data()[i];
+    for (int v = 0; v < height; ++v)
+      for (int u = 0; u < width; ++u)
+        if (is_surrounded(u, v)) shown(u, v) = view_.inverse_depth(u, v);
     return shown;
   }
 
@@ -81,6 +83,13 @@ class Builder {
   struct Pixel {
     int u, v;
   };
+
+  bool is_surrounded(int u, int v) const {
+    for (int y = std::max(v - 1, 0); y <= std::min(v + 1, vertices_.height() - 1); ++y)
+      for (int x = std::max(u - 1, 0); x <= std::min(u + 1, vertices_.width() - 1); ++x)
+        if (vertices_(x, y) == kNoVertex && !covered_(x, y)) return false;
+    return true;
+  }
 
   float difference(Pixel a, Pixel b) const {
     const float gap = std::abs(view_.inverse_depth(a.u, a.v) - view_.inverse_depth(b.u, b.v));

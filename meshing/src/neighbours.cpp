@@ -5,11 +5,28 @@
 #include <pcl/kdtree/kdtree_flann.h>
 #include <pcl/point_types.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "gigaray/parallel.h"
 
 namespace gigaray {
+
+namespace {
+
+/// work(i) for all i below count, on all cores.
+template <class Work>
+void in_parts(std::size_t count, Work work) {
+  constexpr std::size_t kPart = 4096;
+  parallel_for(
+      int((count + kPart - 1) / kPart),
+      [&](int part) {
+        for (std::size_t i = part * kPart; i < std::min((part + 1) * kPart, count); ++i) work(i);
+      },
+      [](int) {});
+}
+
+}  // namespace
 
 struct Neighbours::Tree {
   pcl::PointCloud<pcl::PointXYZ>::Ptr points = pcl::make_shared<pcl::PointCloud<pcl::PointXYZ>>();
@@ -36,18 +53,22 @@ std::vector<Neighbours::Found> Neighbours::nearest(const Eigen::Vector3f& place,
   return found;
 }
 
-std::vector<float> Neighbours::spacing(int count) const {
-  std::vector<float> distances(tree_->points->size());
-  constexpr std::size_t kPart = 4096;
-  parallel_for(
-      int((distances.size() + kPart - 1) / kPart),
-      [&](int part) {
-        const std::size_t begin = part * kPart, end = std::min(begin + kPart, distances.size());
-        for (std::size_t i = begin; i < end; ++i)
-          distances[i] = nearest((*tree_->points)[i].getVector3fMap(), count + 1).back().distance;
-      },
-      [](int) {});
-  return distances;
+std::vector<float> Neighbours::spacing() const {
+  constexpr int kNeighbour = 6;
+  const std::size_t count = tree_->points->size();
+  std::vector<std::vector<Found>> around(count);
+  std::vector<float> spacing(count);
+  in_parts(count, [&](std::size_t i) {
+    around[i] = nearest((*tree_->points)[i].getVector3fMap(), kNeighbour + 1);
+  });
+  in_parts(count, [&](std::size_t i) {
+    std::vector<float> others;
+    for (const Found& found : around[i]) others.push_back(around[found.index].back().distance);
+    const auto low = others.begin() + std::ptrdiff_t(others.size() / 4);
+    std::nth_element(others.begin(), low, others.end());
+    spacing[i] = std::min(around[i].back().distance, 2 * *low);
+  });
+  return spacing;
 }
 
 }  // namespace gigaray

@@ -21,8 +21,9 @@ class Neighbours {
   /// The nearest ones first; fewer when there are fewer.
   std::vector<Found> nearest(const Eigen::Vector3f& place, int count) const;
 
-  /// Of every point its distance to its `count`-th neighbour.
-  std::vector<float> spacing(int count) const;
+  /// Of every point how far points are apart there: the distance to its sixth neighbour, but at
+  /// most twice what a quarter of these neighbours have, lest a stray point reaches far.
+  std::vector<float> spacing() const;
 
  private:
   struct Tree;

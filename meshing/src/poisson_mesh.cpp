@@ -37,8 +37,8 @@ constexpr double kRadius = 1, kDistance = 0.3;
 /// Distance of neighbouring points anywhere; where there are none, the distance to them.
 class Spacing {
  public:
-  Spacing(const Neighbours& neighbours, int count)
-      : neighbours_(neighbours), at_points_(neighbours.spacing(count)) {
+  explicit Spacing(const Neighbours& neighbours)
+      : neighbours_(neighbours), at_points_(neighbours.spacing()) {
     // Points at the same place don't ask for triangles without a size.
     std::vector<float> sorted = at_points_;
     const auto usual = sorted.begin() + std::ptrdiff_t(sorted.size() / 2);
@@ -176,7 +176,7 @@ SurfaceMesh poisson_mesh(const PointCloud& cloud, const PoissonOptions& options,
                         Kernel::Vector_3(n.x(), n.y(), n.z()));
   }
   const Neighbours neighbours(cloud.positions);
-  const Spacing spacing(neighbours, kSpacingNeighbour);
+  const Spacing spacing(neighbours);
   SurfaceMesh mesh;
   if (spacing.least() > 0) mesh = zero_set(points, spacing, options.spacing, control);
   if (mesh.faces.empty())
