@@ -10,9 +10,8 @@ namespace gigaray {
 
 // Surfaces through points (CGAL). Colours are those of the nearest points. Distances are measured
 // in the usual distance of a point from its neighbours, there, so that far and near parts of a
-// scene are treated alike. The same points give the same surface. Both throw
-// Error(kInvalidArgument) for options, Error(kBadInput) when the points are too few or give no
-// surface, and kCancelled.
+// scene are treated alike. Both throw Error(kInvalidArgument) for options, Error(kBadInput) when
+// the points are too few or give no surface, and kCancelled.
 
 struct PoissonOptions {
   double spacing = 1;  ///< Size of the triangles. > 0
@@ -20,7 +19,8 @@ struct PoissonOptions {
   double trim = 2;
 };
 
-/// Smooth, closes what is not seen (Kazhdan et al. 2006; trimmed). Needs normals.
+/// Smooth, closes what is not seen (Kazhdan et al. 2006; trimmed). Needs normals. The same points
+/// give the same surface.
 SurfaceMesh poisson_mesh(const PointCloud& cloud, const PoissonOptions& options,
                          const RunControl& control);
 
