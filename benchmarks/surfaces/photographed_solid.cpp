@@ -13,9 +13,9 @@ namespace {
 
 using testing_support::Solid;
 
-constexpr double kRoom = 8;      // radius; the cameras are 3.2 from the middle
-constexpr double kMasked = 2.5;  // from the middle: beyond is the room
-constexpr int kSamples = 3;      // rays per pixel and axis
+constexpr double kRoom = 8;       // radius; the cameras are 3.2 from the middle
+constexpr double kCropped = 2.5;  // from the middle: beyond is the room
+constexpr int kSamples = 3;       // rays per pixel and axis
 
 /// Waves in all directions, the shortest a few pixels long.
 class Texture {
@@ -74,7 +74,7 @@ Image<std::uint16_t> picture_of(const Solid& solid, const Camera& camera, const 
               const double du = (x + 0.5) / kSamples - 0.5, dv = (y + 0.5) / kSamples - 0.5;
               const Eigen::Vector3d place = seen_at(solid, camera, u + du, v + dv);
               // The room is three times as far.
-              sum += texture.at(place.norm() > kMasked ? Eigen::Vector3d(place / 3) : place);
+              sum += texture.at(place.norm() > kCropped ? Eigen::Vector3d(place / 3) : place);
             }
           for (int c = 0; c < 3; ++c)
             picture(u, v, c) =
@@ -116,10 +116,14 @@ DepthViews computed_views(const Solid& solid, std::vector<Camera> cameras) {
     DepthView view{cameras[i], std::move(depth.disparity), std::move(depth.confidence),
                    Image<std::uint8_t>(picture.width(), picture.height(), 3)};
     std::ranges::copy(picture, view.picture.begin());
+    // Beside silhouettes pixels show both, and depth may be either's.
     for (int v = 0; v < view.inverse_depth.height(); ++v)
-      for (int u = 0; u < view.inverse_depth.width(); ++u)
-        if (seen_at(solid, cameras[i], u, v).norm() > kMasked)
-          view.inverse_depth(u, v) = kNoEstimate;
+      for (int u = 0; u < view.inverse_depth.width(); ++u) {
+        float& w = view.inverse_depth(u, v);
+        if (seen_at(solid, cameras[i], u, v).norm() > kCropped ||
+            cameras[i].back_project(u, v, 1 / double(w)).norm() > kCropped)
+          w = kNoEstimate;
+      }
     kept->push_back(std::move(view));
   }
   return {std::move(cameras), [kept](int view) { return (*kept)[view]; }};

@@ -51,6 +51,11 @@ class Spacing {
     const Neighbours::Found near = neighbours_.nearest(place, 1).front();
     return std::max(at_points_[near.index], near.distance);
   }
+  /// Whether points are no farther from a place than so many times their distance.
+  bool supports(const Eigen::Vector3f& place, double times) const {
+    const Neighbours::Found near = neighbours_.nearest(place, 1).front();
+    return near.distance <= times * at_points_[near.index];
+  }
   float least() const { return least_; }
 
  private:
@@ -160,6 +165,22 @@ SurfaceMesh zero_set(const std::vector<Oriented>& points, const Spacing& spacing
   return triangles_of(complex, triangulation);
 }
 
+/// Drops triangles with a corner or the middle farther from all points than so many times their
+/// distance.
+void trim(SurfaceMesh& mesh, const Spacing& spacing, double times) {
+  std::vector<std::uint8_t> is_supported;
+  for (const Eigen::Vector3f& place : mesh.positions)
+    is_supported.push_back(spacing.supports(place, times));
+  std::erase_if(mesh.faces, [&](const auto& face) {
+    Eigen::Vector3f middle = Eigen::Vector3f::Zero();
+    for (const std::uint32_t corner : face) {
+      if (!is_supported[corner]) return true;
+      middle += mesh.positions[corner] / 3;
+    }
+    return !spacing.supports(middle, times);
+  });
+}
+
 }  // namespace
 
 SurfaceMesh poisson_mesh(const PointCloud& cloud, const PoissonOptions& options,
@@ -183,16 +204,9 @@ SurfaceMesh poisson_mesh(const PointCloud& cloud, const PoissonOptions& options,
     throw Error(ErrorCode::kBadInput, "the points and their normals give no surface");
 
   mesh = surface_mesh_of(cgal_mesh_of(mesh));
-  std::vector<std::uint8_t> is_supported(mesh.positions.size(), 1);
-  for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+  for (std::size_t i = 0; i < mesh.positions.size(); ++i)
     mesh.colours[i] = colour_at(mesh.positions[i], cloud, neighbours);
-    if (options.trim == 0) continue;
-    const Neighbours::Found near = neighbours.nearest(mesh.positions[i], 1).front();
-    is_supported[i] = near.distance <= options.trim * spacing.of_point(near.index);
-  }
-  std::erase_if(mesh.faces, [&](const auto& face) {
-    return !std::ranges::all_of(face, [&](std::uint32_t i) { return is_supported[i] != 0; });
-  });
+  if (options.trim > 0) trim(mesh, spacing, options.trim);
   turn_to_normals(mesh, cloud, neighbours);
   return mesh;
 }

@@ -257,6 +257,31 @@ TEST(MeshProcessing, FillsHolesDropsPiecesAndCollapsesEdges) {
   EXPECT_LT(distances_to(tilted_planes(), coarse.positions).mean, 0.01);
 }
 
+TEST(MeshProcessing, KeepsSmallPatchesOnALargePieceAlone) {
+  SurfaceMesh mesh =
+      grid_mesh(views_of(tilted_planes(), cameras_on_an_arc(3, kSize)), {}, nullptr, {});
+  mesh = cleaned(mesh, {}, nullptr);
+  const std::size_t faces = mesh.faces.size(), pieces = report_of(mesh).components;
+  // A triangle a little before the middle of another one, and the same far away.
+  const auto hover = [&](float distance) {
+    const auto face = mesh.faces[faces / 2];
+    for (const std::uint32_t corner : face) {
+      mesh.positions.push_back(mesh.positions[corner] - distance * Eigen::Vector3f::UnitZ());
+      mesh.normals.push_back(mesh.normals[corner]);
+      mesh.colours.push_back(mesh.colours[corner]);
+    }
+    const auto last = std::uint32_t(mesh.positions.size());
+    mesh.faces.push_back({last - 3, last - 2, last - 1});
+  };
+  hover(0.002f);
+  hover(0.5f);
+  MeshCleaned done;
+  const SurfaceMesh kept = cleaned(mesh, {}, &done);
+  EXPECT_EQ(done.pieces_dropped, 1u);
+  EXPECT_EQ(kept.faces.size(), faces + 1);
+  EXPECT_EQ(report_of(kept).components, pieces + 1);
+}
+
 TEST(MeshProcessing, ABranchingSurfaceBecomesAManifold) {
   // Three sheets at one edge, and two that touch in a corner.
   SurfaceMesh mesh;

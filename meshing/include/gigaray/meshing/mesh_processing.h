@@ -9,7 +9,7 @@
 namespace gigaray {
 
 struct MeshCleaning {
-  std::size_t least_faces = 50;  ///< Pieces with fewer triangles are dropped.
+  std::size_t least_faces = 50;  ///< Pieces with fewer are dropped, save those on a larger one.
   int hole_edges = 0;            ///< Holes with up to so many edges are filled; 0: none
   std::size_t most_faces = 0;    ///< Edges are collapsed until so many triangles are left; 0: none
 };
