@@ -54,19 +54,19 @@ std::vector<Neighbours::Found> Neighbours::nearest(const Eigen::Vector3f& place,
 }
 
 std::vector<float> Neighbours::spacing() const {
-  constexpr int kNeighbour = 6;
+  constexpr int kNeighbour = 6, kCrowd = 32;
   const std::size_t count = tree_->points->size();
-  std::vector<std::vector<Found>> around(count);
-  std::vector<float> spacing(count);
-  in_parts(count, [&](std::size_t i) {
-    around[i] = nearest((*tree_->points)[i].getVector3fMap(), kNeighbour + 1);
-  });
+  const auto around = [&](std::size_t i, int number) {
+    return nearest((*tree_->points)[i].getVector3fMap(), number + 1);
+  };
+  std::vector<float> distance(count), spacing(count);
+  in_parts(count, [&](std::size_t i) { distance[i] = around(i, kNeighbour).back().distance; });
   in_parts(count, [&](std::size_t i) {
     std::vector<float> others;
-    for (const Found& found : around[i]) others.push_back(around[found.index].back().distance);
+    for (const Found& found : around(i, kCrowd)) others.push_back(distance[found.index]);
     const auto low = others.begin() + std::ptrdiff_t(others.size() / 4);
     std::nth_element(others.begin(), low, others.end());
-    spacing[i] = std::min(around[i].back().distance, 2 * *low);
+    spacing[i] = std::min(distance[i], 2 * *low);
   });
   return spacing;
 }

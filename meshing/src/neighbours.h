@@ -22,7 +22,7 @@ class Neighbours {
   std::vector<Found> nearest(const Eigen::Vector3f& place, int count) const;
 
   /// Of every point how far points are apart there: the distance to its sixth neighbour, but at
-  /// most twice what a quarter of these neighbours have, lest a stray point reaches far.
+  /// most twice what a quarter of the nearest 32 have, lest a few stray points reach far.
   std::vector<float> spacing() const;
 
  private:
