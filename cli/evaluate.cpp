@@ -86,7 +86,7 @@ std::vector<ScoreRow> score(const EvaluateOptions& options, const RunControl& co
   std::vector<ScoreRow> rows;
   for (const ViewMaps& maps : views) {
     control.throw_if_cancelled();
-    const FloatMap truth = read_float_map(maps.truth);
+    const FloatMap truth = read_truth(maps.truth);
     SceneParts scene;
     // The masks of a scene are those of its centre view.
     if (maps.view.empty())
@@ -135,7 +135,8 @@ Run evaluate_command(CLI::App& app) {
   auto options = std::make_shared<EvaluateOptions>();
   app.add_option("ESTIMATE", options->maps,
                  "Disparity maps or folders of gigaray depth, several for a table; the last "
-                 "argument is TRUTH: a map, or a folder with truth.pfm or gt_disp_lowres.pfm")
+                 "argument is TRUTH: a map, or a folder with truth.pfm, gt_disp_lowres.pfm or the "
+                 "disparities of a Middlebury stereo pair")
       ->type_name("... TRUTH")
       ->required();
   app.add_option("--views", options->views,

@@ -31,20 +31,33 @@ bool is_folder(const fs::path& path) {
   return fs::is_directory(path, ignored);
 }
 
-/// The path itself, or the first of `names` that the folder has.
-fs::path find_map(const fs::path& path, std::initializer_list<const char*> names) {
+void require(const fs::path& path) {
   if (!is_there(path))
     throw Error(ErrorCode::kBadInput, path.string() + ": no such file or folder");
+}
+
+constexpr std::initializer_list<const char*> kTruthNames{"truth.pfm", "gt_disp_lowres.pfm",
+                                                         "disp2.png", "disp1.png"};
+
+/// The path itself, or the first of `names` that the folder has, or nothing.
+fs::path look_for_map(const fs::path& path, std::initializer_list<const char*> names) {
+  require(path);
   if (!is_folder(path)) return path;
   for (const char* name : names)
     if (is_there(path / name)) return path / name;
-  throw Error(ErrorCode::kBadInput, fmt::format("{}: the folder has no {}; name a disparity map",
-                                                path.string(), fmt::join(names, " and no ")));
+  return {};
+}
+
+fs::path find_map(const fs::path& path, std::initializer_list<const char*> names) {
+  const fs::path found = look_for_map(path, names);
+  if (found.empty())
+    throw Error(ErrorCode::kBadInput, fmt::format("{}: the folder has no {}; name a disparity map",
+                                                  path.string(), fmt::join(names, " and no ")));
+  return found;
 }
 
 void require_folder(const fs::path& path, const char* content) {
-  if (!is_there(path))
-    throw Error(ErrorCode::kBadInput, path.string() + ": no such file or folder");
+  require(path);
   if (!is_folder(path))
     throw Error(ErrorCode::kBadInput,
                 fmt::format("{}: --views needs a folder with {}", path.string(), content));
@@ -151,10 +164,26 @@ LabelMap read_mask(const fs::path& path, int width, int height) {
 
 }  // namespace
 
+fs::path find_truth(const fs::path& place) { return look_for_map(place, kTruthNames); }
+
+FloatMap read_truth(const fs::path& path) {
+  const std::string stem = path.stem().string();
+  const bool is_quarter = stem == "disp2" || stem == "disp6";
+  const bool is_stereo = is_quarter || stem == "disp1" || stem == "disp5";
+  if (path.extension() != ".png" || !is_stereo) return read_float_map(path);
+  const Image<std::uint16_t> grey = read_picture(path);
+  const int scale = is_quarter ? 4 : grey.width() > 1000 ? 1 : grey.width() > 500 ? 2 : 3;
+  FloatMap map(grey.width(), grey.height(), 1, kNoEstimate);
+  for (int v = 0; v < grey.height(); ++v)
+    for (int u = 0; u < grey.width(); ++u)
+      if (grey(u, v, 0) > 0) map(u, v) = float(grey(u, v, 0)) / float(scale);
+  return map;
+}
+
 std::vector<ViewMaps> find_view_maps(const std::vector<fs::path>& estimates, const fs::path& truth,
                                      const std::string& views, const RunControl& control) {
   if (views == "centre") {
-    ViewMaps maps{"", find_map(truth, {"truth.pfm", "gt_disp_lowres.pfm"}), {}};
+    ViewMaps maps{"", find_map(truth, kTruthNames), {}};
     for (const fs::path& estimate : estimates) {
       maps.estimates.push_back(find_map(estimate, {"disparity.pfm"}));
       refuse_another_view(estimate);
@@ -203,6 +232,12 @@ SceneParts read_scene_parts(const fs::path& truth, const std::vector<std::string
     const std::string name = file.substr(kHead.size(), file.size() - kHead.size() - kTail.size());
     if (!parts.masks.contains(name))
       parts.masks.emplace(name, read_mask(entry.path(), width, height));
+  }
+  // A Middlebury stereo pair says what both of its pictures show.
+  constexpr const char* kSeenByBoth = "nonocc";
+  if (is_there(truth / "occl.png") && !parts.masks.contains(kSeenByBoth)) {
+    parts.masks.emplace(kSeenByBoth, read_mask(truth / "occl.png", width, height));
+    parts.asked.push_back(kSeenByBoth);
   }
   try {
     parts.rig = open_light_field(truth).rig;

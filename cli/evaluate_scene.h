@@ -27,6 +27,16 @@ std::vector<ViewMaps> find_view_maps(const std::vector<std::filesystem::path>& e
                                      const std::filesystem::path& truth, const std::string& views,
                                      const RunControl& control);
 
+/// Where the true disparity of a scene's centre view is: `place` itself when it is a file, else in
+/// the folder truth.pfm, gt_disp_lowres.pfm, or disp2.png or disp1.png of a Middlebury stereo pair.
+/// Empty: the folder has none. Throws Error(kBadInput) when there is no such place.
+std::filesystem::path find_truth(const std::filesystem::path& place);
+
+/// A float map; or a picture of a Middlebury stereo pair, whose grey is 4 times the disparity of
+/// disp2 and disp6, of disp1 and disp5 as many times as its width of more than 1000, 500 or fewer
+/// pixels has been divided by (1, 2, 3); 0: unknown. Throws what read_float_map throws.
+FloatMap read_truth(const std::filesystem::path& path);
+
 /// What is known about a scene beside its truth.
 struct SceneParts {
   /// The masks of the scene by their name, as in mask_NAME_lowres.png, and those of --mask.

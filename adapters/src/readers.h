@@ -18,6 +18,7 @@ std::unique_ptr<const Reader> colmap_reader();
 std::unique_ptr<const Reader> transforms_json_reader();
 std::unique_ptr<const Reader> llff_reader();
 std::unique_ptr<const Reader> middlebury_par_reader();
+std::unique_ptr<const Reader> middlebury_stereo_reader();
 std::unique_ptr<const Reader> strecha_reader();
 std::unique_ptr<const Reader> named_grid_reader();
 std::unique_ptr<const Reader> image_sequence_reader();

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Gigaray authors
+#pragma once
+
+#include <opencv2/core.hpp>
+#include <vector>
+
+#include "baselines/baseline.h"
+
+namespace gigaray::baselines {
+
+/// Two rectified pictures, CV_8UC3. What `reference` shows at (u, v) `other` shows at (u − d, v).
+struct Pair {
+  cv::Mat reference, other;
+  int least = 0, most = 0;  ///< d to search, both included; may be negative
+
+  int labels() const { return most - least + 1; }
+  /// The same pair with the other picture as the reference, both mirrored.
+  Pair turned() const;
+};
+
+/// A method for pairs: d of the reference, CV_32F, NaN: none.
+using Match = std::function<cv::Mat(const Pair&, const RunControl&)>;
+
+/// Pairs of the problem's view with others in its row, one and two and four … view steps away and
+/// as far as there are, each matched by `match`. Larger ranges than `most_labels` are left out.
+std::vector<Trial> pair_trials(const Problem& problem, const Match& match, int most_labels);
+
+/// NaN where the other picture's map (of Pair::turned()) differs by more than `tolerance` px.
+cv::Mat agreed(const cv::Mat& disparity, const cv::Mat& of_turned, float tolerance);
+
+/// Holes take the smaller, farther, one of the next values in their row.
+void fill_from_farther(cv::Mat& disparity);
+
+/// Where between −½ and ½ the parabola through three costs has its least value.
+inline float parabola(float before, float here, float after) {
+  const float bend = before - 2 * here + after;
+  return bend > 0 ? std::clamp((before - after) / (2 * bend), -0.5f, 0.5f) : 0.0f;
+}
+
+/// A cost per label and pixel: volume[label](v, u), CV_32F.
+using Volume = std::vector<cv::Mat>;
+
+/// The label with the least cost, refined by a parabola; in labels.
+cv::Mat least_cost(const Volume& volume);
+
+}  // namespace gigaray::baselines

@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Gigaray authors
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <memory>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "command.h"
+#include "contest.h"
+#include "contest_report.h"
+#include "depth_options_cli.h"
+#include "gigaray/adapters/atomic_output.h"
+
+namespace gigaray::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kCompareFormat = "gigaray compare";
+
+struct Settings {
+  DepthRunOptions run;
+  fs::path truth, output;
+  std::vector<std::string> methods;  ///< empty: all
+  int repeats = 1;
+  double error_range = 0.2;
+  bool json = false;
+};
+
+std::vector<std::string> all_methods() {
+  std::vector<std::string> names{"auto", "paper"};
+  for (const baselines::Baseline& baseline : baselines::all_baselines())
+    names.push_back(baseline.name);
+  return names;
+}
+
+/// The truth that was named, or the one in the folder of the input.
+void find_truth_for(Contest& contest, const Settings& settings, const RunControl& control) {
+  const bool is_named = !settings.truth.empty();
+  const fs::path& place = is_named ? settings.truth : settings.run.input.input;
+  if (!is_named && !fs::is_directory(place)) return;
+  contest.truth_place = find_truth(place);
+  if (contest.truth_place.empty()) {
+    if (is_named)
+      throw Error(ErrorCode::kBadInput, place.string() + ": the folder has no true disparities");
+    control.message("no truth in the folder: maps are compared with each other");
+    return;
+  }
+  const LightField& light_field = contest.light_field;
+  contest.truth = read_truth(contest.truth_place);
+  if (contest.truth->width() != light_field.width || contest.truth->height() != light_field.height)
+    throw Error(ErrorCode::kBadInput,
+                fmt::format("{}: is {} x {}, the views are {} x {}", contest.truth_place.string(),
+                            contest.truth->width(), contest.truth->height(), light_field.width,
+                            light_field.height));
+  contest.parts = read_scene_parts(place, {}, light_field.width, light_field.height);
+  if (!is_named) control.message("truth: " + contest.truth_place.string());
+}
+
+void print_table(const Contest& contest, const std::vector<Contestant>& contestants) {
+  const auto rows = contest_table(contest, contestants);
+  // Width in characters, of which some are two bytes long.
+  const auto length = [](const std::string& text) {
+    return std::size_t(std::ranges::count_if(text, [](char c) { return (c & 0xc0) != 0x80; }));
+  };
+  std::vector<std::size_t> widths(rows.front().size());
+  for (const auto& row : rows)
+    for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], length(row[i]));
+  for (const auto& row : rows) {
+    std::string line;
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      const std::string space(widths[i] - length(row[i]), ' ');
+      const bool is_text = i == 0 || i + 1 == row.size();
+      line += (i == 0 ? "" : "  ") + (is_text ? row[i] + space : space + row[i]);
+    }
+    line.erase(line.find_last_not_of(' ') + 1);
+    fmt::print("{}\n", line);
+  }
+}
+
+/// Processor and number of threads, for the record.
+std::string machine() {
+  std::ifstream file("/proc/cpuinfo");
+  for (std::string line; std::getline(file, line);)
+    if (line.starts_with("model name"))
+      return fmt::format("{}, {} threads", line.substr(line.find(':') + 2),
+                         std::thread::hardware_concurrency());
+  return fmt::format("{} threads", std::thread::hardware_concurrency());
+}
+
+void run(const Settings& settings, const RunControl& control) {
+  AtomicFolder folder(settings.output, kCompareFormat, "compare.json");
+  Contest contest;
+  contest.repeats = settings.repeats;
+  contest.light_field = settings.run.input.open_light_field();
+  if (contest.light_field.kind == LightFieldKind::kUnstructured)
+    throw Error(ErrorCode::kBadInput,
+                settings.run.input.input.string() +
+                    ": photographs from anywhere; the baselines need views in a row, see `gigaray "
+                    "rectify`");
+  for (const std::string& note : contest.light_field.notes) control.message(note);
+  const DepthOptions resolved = settings.run.resolve(contest.light_field, control);
+  contest.view = centre_view(contest.light_field);
+  find_truth_for(contest, settings, control);
+
+  const auto is_chosen = [&](const std::string& name) {
+    return settings.methods.empty() ||
+           std::ranges::find(settings.methods, name) != settings.methods.end();
+  };
+  // Ours first: it finds the range to search when nothing states it.
+  std::optional<DisparityRange> range =
+      resolved.disparity ? resolved.disparity : contest.light_field.declared_range;
+  std::vector<Contestant> contestants;
+  for (const char* preset : {"auto", "paper"}) {
+    if (!is_chosen(preset)) continue;
+    DepthOptions options = preset_options(preset);
+    options.hypotheses = resolved.hypotheses;
+    options.memory_bytes = resolved.memory_bytes;
+    options.work_folder = resolved.work_folder;
+    options.disparity = range;
+    contestants.push_back(run_ours(contest, options, settings.run.backend(), control));
+    if (!range) range = contestants.back().searched;
+  }
+  if (!range)
+    throw Error(ErrorCode::kInvalidArgument,
+                "the range of disparities is not known; state --disparity, or let auto run too");
+  contest.range = *range;
+  for (const baselines::Baseline& baseline : baselines::all_baselines()) {
+    if (!is_chosen(baseline.name)) continue;
+    if (auto contestant = run_baseline(contest, baseline, control))
+      contestants.push_back(std::move(*contestant));
+    else
+      control.message(baseline.name + ": left out, the views don't allow it");
+  }
+  if (contestants.empty())
+    throw Error(ErrorCode::kBadInput, "none of the methods can work with these views");
+
+  ContestFacts facts;
+  facts.input = fs::absolute(settings.run.input.input).lexically_normal().string();
+  facts.program = "gigaray " GIGARAY_VERSION;
+  facts.machine = machine();
+  facts.error_range = settings.error_range;
+  const FloatMap& shape = contest.truth ? *contest.truth : contestants.front().disparity;
+  const std::vector<CloseUp> squares = close_ups(shape, 3);
+  write_contest_pictures(folder.path(), contest, contestants, squares, facts);
+  write_file_atomically(folder.path() / "compare.csv", contest_csv(contestants));
+  write_file_atomically(folder.path() / "index.html",
+                        contest_page(folder.path(), contest, contestants, squares, facts));
+  const std::string json = contest_json(contest, contestants, facts)
+                               .dump(2, ' ', false, nlohmann::json::error_handler_t::replace);
+  write_file_atomically(folder.path() / "compare.json", json);
+  folder.commit();
+  if (settings.json) {
+    fmt::print("{}\n", json);
+    return;
+  }
+  print_table(contest, contestants);
+  for (const std::string& sentence : verdict(contest, contestants)) fmt::print("{}\n", sentence);
+  fmt::print("{}: the page\n", (settings.output / "index.html").string());
+}
+
+}  // namespace
+
+Run compare_command(CLI::App& app) {
+  app.description("This method beside the stereo baselines: numbers, pictures, one HTML page");
+  const auto settings = std::make_shared<Settings>();
+  settings->run.add_to(app);
+  app.add_option(
+         "--truth", settings->truth,
+         "True disparity of the centre view: a map, or a folder with truth.pfm, "
+         "gt_disp_lowres.pfm or those of a Middlebury stereo pair (default: what INPUT has)")
+      ->type_name("PATH");
+  app.add_option(
+         "-o,--output", settings->output,
+         "Folder for compare.json, compare.csv, index.html and the pictures; replaced if it "
+         "is an older comparison")
+      ->type_name("DIR")
+      ->required();
+  app.add_option(
+         "--methods", settings->methods,
+         "Some methods instead of all: " + fmt::format("{}", fmt::join(all_methods(), ", ")))
+      ->check(CLI::IsMember(all_methods()))
+      ->delimiter(',')
+      ->type_name("LIST");
+  app.add_option("--repeats", settings->repeats, "Time every run so often; the median counts")
+      ->check(CLI::Range(1, 1000))
+      ->type_name("N")
+      ->capture_default_str();
+  app.add_option("--error-range", settings->error_range,
+                 "Error in px with the full colour of the error maps")
+      ->check(CLI::PositiveNumber)
+      ->type_name("PX")
+      ->capture_default_str();
+  app.add_flag("--json", settings->json, "Print compare.json to stdout");
+  return [settings](const RunControl& control) { run(*settings, control); };
+}
+
+}  // namespace gigaray::cli

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Gigaray authors
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "baselines/baseline.h"
+#include "evaluate_scores.h"
+#include "gigaray/reconstruct.h"
+
+namespace gigaray::cli {
+
+/// What all methods are run on and scored with.
+struct Contest {
+  LightField light_field;
+  int view = 0;
+  DisparityRange range;               ///< to search, px per view step
+  std::optional<FloatMap> truth;      ///< of the view
+  std::filesystem::path truth_place;  ///< empty: none
+  SceneParts parts;
+  int repeats = 1;  ///< of every run that is timed
+};
+
+/// A choice of views that a method was given, and how good it was.
+struct Choice {
+  std::string views;
+  double measure = 0;  ///< BadPix0.07, without truth photo-consistency; less is better
+};
+
+inline constexpr const char* kPhotoConsistency = "PhotoConsistency";
+
+/// A method with its best result.
+struct Contestant {
+  std::string name, title, reference, parameters;
+  bool is_ours = false;
+  DisparityRange searched;
+  FloatMap disparity;
+  std::string views;            ///< that it looked at
+  double seconds = 0;           ///< median of the repeats
+  std::vector<Choice> choices;  ///< all that were tried
+  /// Against the truth, if there is one; PhotoConsistency and seconds.
+  std::vector<Score> scores;
+  /// NaN: there is no such score.
+  double score(const std::string& wanted) const;
+};
+
+/// Gigaray with its options; contest.range plays no part. Throws what reconstruct() throws.
+Contestant run_ours(const Contest& contest, const DepthOptions& options,
+                    const BackendChoice& backend, const RunControl& control);
+
+/// A baseline with the choice of views that is best; nothing where the views allow none.
+/// Throws Error(kDevice) when a repeat gives another map: then its time means nothing.
+std::optional<Contestant> run_baseline(const Contest& contest, const baselines::Baseline& baseline,
+                                       const RunControl& control);
+
+/// Percentage of pixels where both maps have an estimate and differ by no more than `tolerance`.
+double agreement(const FloatMap& a, const FloatMap& b, double tolerance);
+
+}  // namespace gigaray::cli
