@@ -9,6 +9,7 @@
 
 #include "command.h"
 #include "gigaray/adapters/cloud_file.h"
+#include "numbers.h"
 #include "surface_input.h"
 
 namespace gigaray::cli {
@@ -74,12 +75,12 @@ Run cloud_command(CLI::App& app) {
   app.add_option("--voxel", settings->cloud.voxel,
                  "Points in a cube of this size become one, scene units (default: the distance of "
                  "neighbouring pixels there, in steps of two)")
-      ->check(CLI::PositiveNumber)
+      ->check(above_zero())
       ->type_name("SIZE");
   app.add_option("--outliers", settings->cloud.outlier_deviations,
                  "Drop points whose neighbours are farther than usual by so many standard "
                  "deviations; 0: none")
-      ->check(CLI::NonNegativeNumber)
+      ->check(zero_or_more())
       ->type_name("X")
       ->capture_default_str();
   app.add_option("--memory", settings->memory_gib,

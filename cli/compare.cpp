@@ -15,6 +15,7 @@
 #include "contest_report.h"
 #include "depth_options_cli.h"
 #include "gigaray/adapters/atomic_output.h"
+#include "numbers.h"
 
 namespace gigaray::cli {
 namespace {
@@ -193,7 +194,7 @@ Run compare_command(CLI::App& app) {
       ->capture_default_str();
   app.add_option("--error-range", settings->error_range,
                  "Error in px with the full colour of the error maps")
-      ->check(CLI::PositiveNumber)
+      ->check(above_zero())
       ->type_name("PX")
       ->capture_default_str();
   app.add_flag("--json", settings->json, "Print compare.json to stdout");

@@ -27,7 +27,8 @@ th:first-child, td:first-child, th:last-child, td:last-child { text-align: left 
 tr.ours { background: #eef6ee } td.best { font-weight: bold }
 .row { display: flex; flex-wrap: wrap; gap: 1em; margin: .5em 0 1.5em }
 figure { margin: 0 } figcaption { font-size: .85em; color: #555 }
-.map img { width: 260px } .close img { width: 192px; image-rendering: pixelated }
+.map img { width: 260px } .pair { display: flex; flex-direction: column; gap: .3em }
+.pair img { width: 120px; image-rendering: pixelated }
 p.note { color: #555; font-size: .9em }
 )";
 
@@ -113,6 +114,19 @@ std::string agreement_table(const std::vector<Contestant>& contestants) {
   return text + "</tbody></table>\n";
 }
 
+/// Close-ups side by side, of two pictures one above the other; below: may be empty.
+std::string close_ups_of(const fs::path& above, const fs::path& below, std::size_t squares) {
+  std::string text;
+  for (std::size_t k = 1; k <= squares; ++k) {
+    text += "<div class=\"pair\">";
+    for (const fs::path& stem : {above, below})
+      if (!stem.empty())
+        text += figure(stem.string() + fmt::format("-{}.png", k), fmt::format("close-up {}", k));
+    text += "</div>";
+  }
+  return text;
+}
+
 std::string method_section(const fs::path& folder, const Contest& contest,
                            const Contestant& contestant, std::size_t squares) {
   const fs::path own = folder / contestant.name;
@@ -131,14 +145,7 @@ std::string method_section(const fs::path& folder, const Contest& contest,
   text += "</p>\n<div class=\"row\"><div class=\"map\">" +
           figure(own / "disparity.png", "disparity") + "</div>";
   if (contest.truth) text += "<div class=\"map\">" + figure(own / "error.png", "error") + "</div>";
-  for (std::size_t k = 1; k <= squares; ++k) {
-    text += "<div class=\"close\">" +
-            figure(own / fmt::format("disparity-{}.png", k), fmt::format("close-up {}", k)) +
-            "</div>";
-    if (contest.truth)
-      text += "<div class=\"close\">" +
-              figure(own / fmt::format("error-{}.png", k), fmt::format("its error", k)) + "</div>";
-  }
+  text += close_ups_of(own / "disparity", contest.truth ? own / "error" : fs::path(), squares);
   return text + "</div>\n";
 }
 
@@ -156,7 +163,7 @@ std::string contest_page(const fs::path& folder, const Contest& contest,
       escaped(title), kStyle);
   text += fmt::format(
       "<p>{} {} views of {} × {} ({}), depth of view {}, disparities {:.3g} … {:.3g} px per view "
-      "step. {}, {}. Times are medians of {} run{}; every repeat gave the same map.</p>\n",
+      "step. {}, {}.{}</p>\n",
       light_field.num_views(), to_string(light_field.kind), light_field.width, light_field.height,
       escaped(light_field.format), escaped(light_field.views[contest.view].name), contest.range.min,
       contest.range.max, escaped(facts.program), escaped(facts.machine), contest.repeats,
@@ -179,14 +186,8 @@ std::string contest_page(const fs::path& folder, const Contest& contest,
           figure(folder / "view.png", "view") + "</div>";
   if (contest.truth)
     text += "<div class=\"map\">" + figure(folder / "truth/disparity.png", "truth") + "</div>";
-  for (std::size_t k = 1; k <= squares.size(); ++k) {
-    text += "<div class=\"close\">" +
-            figure(folder / fmt::format("view-{}.png", k), fmt::format("close-up {}", k)) +
-            "</div>";
-    if (contest.truth)
-      text += "<div class=\"close\">" +
-              figure(folder / fmt::format("truth/disparity-{}.png", k), "its truth") + "</div>";
-  }
+  text += close_ups_of(folder / "view", contest.truth ? folder / "truth/disparity" : fs::path(),
+                       squares.size());
   text += "</div>\n<h2>Methods</h2>\n";
   if (contest.truth)
     text += fmt::format(

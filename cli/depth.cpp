@@ -17,6 +17,7 @@
 #include "gigaray/adapters/depth_folder.h"
 #include "gigaray/metric_depth.h"
 #include "gigaray/reconstruct.h"
+#include "numbers.h"
 #include "photographs.h"
 #include "view_list.h"
 
@@ -227,7 +228,7 @@ Run depth_command(CLI::App& app) {
          "--min-confidence", settings->min_confidence,
          "Leave out (NaN) what is less sure; with auto the probability of being right within "
          "0.07 px")
-      ->check(CLI::NonNegativeNumber)
+      ->check(zero_or_more())
       ->type_name("C");
   app.add_option("--format", settings->formats,
                  "Maps in these formats too: exr, npy, png16; colmap: a dense workspace for "

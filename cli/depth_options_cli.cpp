@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "gigaray/camera_order.h"
+#include "numbers.h"
 
 namespace gigaray::cli {
 
@@ -18,7 +19,7 @@ void add_memory_option(CLI::App& app, double& gib) {
   app.add_option("--memory", gib,
                  "Most memory to use (default: three quarters of what is free); the "
                  "result does not depend on it")
-      ->check(CLI::PositiveNumber)
+      ->check(above_zero())
       ->type_name("GiB");
 }
 

@@ -12,6 +12,7 @@
 #include "gigaray/adapters/depth_result.h"
 #include "gigaray/adapters/sparse_file.h"
 #include "gigaray/reconstruct.h"
+#include "numbers.h"
 
 namespace gigaray::cli {
 namespace {
@@ -135,12 +136,12 @@ Run encode_command(CLI::App& app) {
       ->type_name("DIR");
   app.add_option("--lossy", settings->file.max_error,
                  "Values may differ by up to Q of 255 (of 65535 for 16-bit pictures); 0: lossless")
-      ->check(CLI::NonNegativeNumber)
+      ->check(zero_or_more())
       ->capture_default_str()
       ->type_name("Q");
   app.add_option("--band", settings->file.band_rows,
                  "Rows that can be decoded by themselves (default: as many as have 131072 px)")
-      ->check(CLI::PositiveNumber)
+      ->check(above_zero())
       ->type_name("ROWS");
   app.add_flag("--json", settings->json, "Print JSON");
   return [settings](const RunControl& control) { run(*settings, control); };

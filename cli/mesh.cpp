@@ -11,6 +11,7 @@
 #include "gigaray/meshing/grid_mesh.h"
 #include "gigaray/meshing/mesh_processing.h"
 #include "gigaray/meshing/mesh_report.h"
+#include "numbers.h"
 #include "surface_input.h"
 
 namespace gigaray::cli {
@@ -132,7 +133,7 @@ Run mesh_command(CLI::App& app) {
       ->capture_default_str();
   app.add_option("--voxel", settings->voxel,
                  "poisson, front: points in a cube of this size become one, scene units")
-      ->check(CLI::PositiveNumber)
+      ->check(above_zero())
       ->type_name("SIZE");
   app.add_option("--points", settings->most_points,
                  "poisson, front: without --voxel, cubes are so large that no more points are left")
@@ -142,7 +143,7 @@ Run mesh_command(CLI::App& app) {
   app.add_option("--trim", settings->trim,
                  "poisson: cut away what is farther from the points, in distances of neighbours; "
                  "0: nothing, the surface is closed")
-      ->check(CLI::NonNegativeNumber)
+      ->check(zero_or_more())
       ->type_name("X")
       ->capture_default_str();
   app.add_option("--least-faces", settings->cleaning.least_faces,

@@ -17,6 +17,7 @@
 #include "gigaray/adapters/pictures.h"
 #include "gigaray/picture_quality.h"
 #include "gigaray/refocus.h"
+#include "numbers.h"
 #include "render_scene.h"
 #include "view_list.h"
 
@@ -298,7 +299,7 @@ Run render_command(CLI::App& app) {
   app.add_option("--view", settings->view, "With --refocus: the view")->capture_default_str();
   app.add_option("--aperture", settings->aperture,
                  "With --refocus: views within so many view steps have a part (default: all)")
-      ->check(CLI::NonNegativeNumber)
+      ->check(zero_or_more())
       ->type_name("STEPS");
   app.add_option("-o,--output", settings->output,
                  "Folder for the pictures; replaced if it is an older result")
@@ -312,7 +313,7 @@ Run render_command(CLI::App& app) {
       ->capture_default_str();
   app.add_option("--min-confidence", settings->min_confidence,
                  "Leave out points that are less sure")
-      ->check(CLI::NonNegativeNumber)
+      ->check(zero_or_more())
       ->type_name("C");
   app.add_flag("--equal-weights", settings->equal_weights,
                "Mix the views that see a point alike, without view-dependent weights");

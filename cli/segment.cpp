@@ -16,6 +16,7 @@
 #include "gigaray/metric_depth.h"
 #include "gigaray/ray_sampler.h"
 #include "gigaray/segmentation.h"
+#include "numbers.h"
 #include "view_list.h"
 
 namespace gigaray::cli {
@@ -200,7 +201,7 @@ Run segment_command(CLI::App& app) {
                  "all, centre, or a list of names, indices and ranges: 0,4-6,view_09")
       ->capture_default_str();
   app.add_option("--min-confidence", settings->min_confidence, "Leave out what is less sure")
-      ->check(CLI::NonNegativeNumber)
+      ->check(zero_or_more())
       ->type_name("C");
   app.add_flag("--soft", settings->soft,
                "VIEW/matte.png too, 16 bit, with edges that follow the colours of the picture");

@@ -13,7 +13,8 @@ namespace {
 // Grey levels of 255.
 constexpr float kMostCost = 20, kWeight = 8, kWeightOnEdges = 2.5;
 constexpr int kEdge = 8;
-constexpr int kMostStep = 2, kRounds = 2;
+constexpr int kMostStep = 2, kRounds = 2;        // px
+constexpr int kMostLabels = 80, kMostParts = 4;  // of a pixel
 
 /// Least and largest value between a pixel's colour and those half way to its neighbours
 /// (Birchfield and Tomasi 1998).
@@ -54,12 +55,12 @@ cv::Mat cost_of(const Interval& reference, const Interval& other, int disparity)
   return cost;
 }
 
-Smoothness smoothness_of(const cv::Mat& picture) {
+Smoothness smoothness_of(const cv::Mat& picture, int parts) {
   Smoothness smoothness{cv::Mat(picture.size(), CV_32F), cv::Mat(picture.size(), CV_32F),
-                        kMostStep};
+                        kMostStep * parts};
   const auto weight = [&](cv::Vec3b a, cv::Vec3b b) {
     const int gap = (std::abs(a[0] - b[0]) + std::abs(a[1] - b[1]) + std::abs(a[2] - b[2])) / 3;
-    return gap < kEdge ? kWeight : kWeightOnEdges;
+    return (gap < kEdge ? kWeight : kWeightOnEdges) / float(parts);
   };
   for (int v = 0; v < picture.rows; ++v)
     for (int u = 0; u < picture.cols; ++u) {
@@ -70,16 +71,30 @@ Smoothness smoothness_of(const cv::Mat& picture) {
   return smoothness;
 }
 
+/// The picture with everything `shift` px farther to the right.
+cv::Mat shifted(const cv::Mat& picture, double shift) {
+  const cv::Mat way = (cv::Mat_<double>(2, 3) << 1, 0, shift, 0, 1, 0);
+  cv::Mat result;
+  cv::warpAffine(picture, result, way, picture.size(), cv::INTER_CUBIC, cv::BORDER_REPLICATE);
+  return result;
+}
+
 cv::Mat labelled(const Pair& pair, const RunControl& control) {
-  const Interval reference = interval_of(pair.reference), other = interval_of(pair.other);
-  Volume volume;
-  for (int d = pair.least; d <= pair.most; ++d) volume.push_back(cost_of(reference, other, d));
-  const cv::Mat start(pair.reference.size(), CV_32S, cv::Scalar(pair.labels() / 2));
-  const cv::Mat labels = expanded(start, volume, smoothness_of(pair.reference), kRounds, control);
-  cv::Mat disparity(labels.size(), CV_32F);
-  for (int v = 0; v < labels.rows; ++v)
-    for (int u = 0; u < labels.cols; ++u)
-      disparity.at<float>(v, u) = float(pair.least + labels.at<int>(v, u));
+  // Parts of a pixel as far as the number of labels allows.
+  int parts = 1;
+  while (2 * parts <= kMostParts && 2 * parts * pair.labels() <= kMostLabels) parts *= 2;
+  const Interval reference = interval_of(pair.reference);
+  Volume volume(std::size_t(pair.labels() - 1) * parts + 1);
+  for (int part = 0; part < parts; ++part) {
+    const Interval other = interval_of(shifted(pair.other, double(part) / parts));
+    for (std::size_t label = part; label < volume.size(); label += parts)
+      volume[label] = cost_of(reference, other, pair.least + int(label) / parts);
+  }
+  const cv::Mat start(pair.reference.size(), CV_32S, cv::Scalar(int(volume.size()) / 2));
+  const cv::Mat labels =
+      expanded(start, volume, smoothness_of(pair.reference, parts), kRounds, control);
+  cv::Mat disparity;
+  labels.convertTo(disparity, CV_32F, 1.0 / parts, pair.least);
   return disparity;
 }
 
@@ -97,9 +112,10 @@ Baseline graph_cut() {
   return {
       "graph_cut", "Graph cuts", "Kolmogorov and Zabih 2001, Boykov et al. 2001; OpenCV's max-flow",
       "alpha expansion, 2 rounds; colours compared as Birchfield and Tomasi 1998, at most 20 of "
-      "255; neighbours pay 8 (2.5 where colours differ by 8 or more) per step, at most 2 steps; "
-      "whole px; both sides agree within 1 px, else from the farther neighbour; up to 80 labels",
-      [](const Problem& problem) { return pair_trials(problem, match, 80); }};
+      "255; neighbours pay 8 (2.5 where colours differ by 8 or more) per px, at most 2 px; up to "
+      "80 labels, quarters, halves or whole px as they allow; both sides agree within 1 px, else "
+      "from the farther neighbour",
+      [](const Problem& problem) { return pair_trials(problem, match, kMostLabels); }};
 }
 
 }  // namespace gigaray::baselines
