@@ -10,6 +10,7 @@
 #include <thread>
 #include <vector>
 
+#include "baselines/external.h"
 #include "command.h"
 #include "contest.h"
 #include "contest_report.h"
@@ -28,16 +29,40 @@ struct Settings {
   DepthRunOptions run;
   fs::path truth, output;
   std::vector<std::string> methods;  ///< empty: all
+  std::vector<fs::path> externals;   ///< descriptions of programs
   int repeats = 1;
   double error_range = 0.2;
   bool json = false;
 };
+
+bool is_chosen(const Settings& settings, const std::string& method) {
+  return settings.methods.empty() ||
+         std::ranges::find(settings.methods, method) != settings.methods.end();
+}
 
 std::vector<std::string> all_methods() {
   std::vector<std::string> names{"auto", "paper"};
   for (const baselines::Baseline& baseline : baselines::all_baselines())
     names.push_back(baseline.name);
   return names;
+}
+
+/// Those that were chosen, then the programs outside.
+std::vector<baselines::Baseline> chosen_baselines(const Settings& settings) {
+  std::vector<baselines::Baseline> chosen;
+  for (const baselines::Baseline& baseline : baselines::all_baselines())
+    if (is_chosen(settings, baseline.name)) chosen.push_back(baseline);
+  std::vector<std::string> names{"gigaray_auto", "gigaray_paper", "truth"};
+  for (const baselines::Baseline& baseline : baselines::all_baselines())
+    names.push_back(baseline.name);
+  for (const fs::path& path : settings.externals) {
+    chosen.push_back(baselines::external_baseline(path));
+    if (std::ranges::find(names, chosen.back().name) != names.end())
+      throw Error(ErrorCode::kInvalidArgument,
+                  path.string() + ": there is a '" + chosen.back().name + "' already");
+    names.push_back(chosen.back().name);
+  }
+  return chosen;
 }
 
 /// The truth that was named, or the one in the folder of the input.
@@ -96,6 +121,7 @@ std::string machine() {
 
 void run(const Settings& settings, const RunControl& control) {
   AtomicFolder folder(settings.output, kCompareFormat, "compare.json");
+  const std::vector<baselines::Baseline> others = chosen_baselines(settings);
   Contest contest;
   contest.repeats = settings.repeats;
   contest.light_field = settings.run.input.open_light_field();
@@ -109,16 +135,12 @@ void run(const Settings& settings, const RunControl& control) {
   contest.view = centre_view(contest.light_field);
   find_truth_for(contest, settings, control);
 
-  const auto is_chosen = [&](const std::string& name) {
-    return settings.methods.empty() ||
-           std::ranges::find(settings.methods, name) != settings.methods.end();
-  };
   // Ours first: it finds the range to search when nothing states it.
   std::optional<DisparityRange> range =
       resolved.disparity ? resolved.disparity : contest.light_field.declared_range;
   std::vector<Contestant> contestants;
   for (const char* preset : {"auto", "paper"}) {
-    if (!is_chosen(preset)) continue;
+    if (!is_chosen(settings, preset)) continue;
     DepthOptions options = preset_options(preset);
     options.hypotheses = resolved.hypotheses;
     options.memory_bytes = resolved.memory_bytes;
@@ -131,8 +153,7 @@ void run(const Settings& settings, const RunControl& control) {
     throw Error(ErrorCode::kInvalidArgument,
                 "the range of disparities is not known; state --disparity, or let auto run too");
   contest.range = *range;
-  for (const baselines::Baseline& baseline : baselines::all_baselines()) {
-    if (!is_chosen(baseline.name)) continue;
+  for (const baselines::Baseline& baseline : others) {
     if (auto contestant = run_baseline(contest, baseline, control))
       contestants.push_back(std::move(*contestant));
     else
@@ -188,6 +209,10 @@ Run compare_command(CLI::App& app) {
       ->check(CLI::IsMember(all_methods()))
       ->delimiter(',')
       ->type_name("LIST");
+  app.add_option("--external", settings->externals,
+                 "A program for stereo pairs too, described in JSON (docs/formats.md)")
+      ->allow_extra_args(false)
+      ->type_name("FILE");
   app.add_option("--repeats", settings->repeats, "Time every run so often; the median counts")
       ->check(CLI::Range(1, 1000))
       ->type_name("N")

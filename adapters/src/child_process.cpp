@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Gigaray authors
-#include "child_process.h"
+#include "gigaray/adapters/child_process.h"
 
 #include <fcntl.h>
 #include <poll.h>

@@ -11,9 +11,9 @@
 #include <sstream>
 #include <system_error>
 
-#include "child_process.h"
 #include "colmap_folders.h"
 #include "gigaray/adapters/atomic_output.h"
+#include "gigaray/adapters/child_process.h"
 #include "mask_folder.h"
 #include "picture_files.h"
 #include "text.h"

@@ -155,7 +155,7 @@ std::vector<Trial> trials(const Problem& problem) {
     const auto begin = std::chrono::steady_clock::now();
     const cv::Mat disparity = lines_of(stack, problem.range);
     const std::chrono::duration<double> time = std::chrono::steady_clock::now() - begin;
-    return Estimate{map_of(disparity), stack.views, time.count()};
+    return Estimate{map_of(disparity), stack.views_from_reference(), time.count()};
   };
   return {{fmt::format("{} views", stack->size()), run}};
 }

@@ -15,6 +15,12 @@ constexpr double kUneven = 0.2;        ///< of a step
 
 }  // namespace
 
+std::vector<int> EpiStack::views_from_reference() const {
+  std::vector<int> result = views;
+  std::rotate(result.begin(), result.begin() + reference, result.begin() + reference + 1);
+  return result;
+}
+
 std::optional<EpiStack> epi_stack(const Problem& problem, Direction direction, int most_each_side) {
   const LightField& light_field = problem.light_field;
   const bool is_row = direction == Direction::kRow;

@@ -18,6 +18,7 @@ struct EpiStack {
   std::vector<double> steps;      ///< from the reference, rising, about equally far apart
   int reference = 0;              ///< index into all of these
   int size() const { return int(pictures.size()); }
+  std::vector<int> views_from_reference() const;  ///< the reference, then the others
 };
 
 enum class Direction { kRow, kColumn };

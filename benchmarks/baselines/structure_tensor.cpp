@@ -202,8 +202,8 @@ std::vector<Trial> trials(const Problem& problem, bool with_labelling) {
   std::vector<int> views{problem.view};
   for (const Direction direction : {Direction::kRow, Direction::kColumn})
     if (auto stack = epi_stack(problem, direction, kEachSide)) {
-      std::ranges::copy_if(stack->views, std::back_inserter(views),
-                           [&](int view) { return view != problem.view; });
+      const std::vector<int> own = stack->views_from_reference();
+      views.insert(views.end(), own.begin() + 1, own.end());
       stacks.emplace_back(direction, std::move(*stack));
     }
   if (stacks.empty()) return {};

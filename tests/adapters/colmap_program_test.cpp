@@ -12,7 +12,7 @@
 #include "adapters/adapters_test.h"
 #include "adapters/colmap_scene.h"
 #include "adapters/textured_planes.h"
-#include "child_process.h"
+#include "gigaray/adapters/child_process.h"
 #include "gigaray/adapters/colmap_model.h"
 
 namespace gigaray {
