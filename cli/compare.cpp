@@ -31,7 +31,7 @@ struct Settings {
   std::vector<std::string> methods;  ///< empty: all
   std::vector<fs::path> externals;   ///< descriptions of programs
   int repeats = 1;
-  double error_range = 0.2;
+  double error_range = 0;  ///< 0: by the number of views
   bool json = false;
 };
 
@@ -142,7 +142,7 @@ void run(const Settings& settings, const RunControl& control) {
   for (const char* preset : {"auto", "paper"}) {
     if (!is_chosen(settings, preset)) continue;
     DepthOptions options = preset_options(preset);
-    options.hypotheses = resolved.hypotheses;
+    if (settings.run.hypotheses != 0) options.hypotheses = settings.run.hypotheses;
     options.memory_bytes = resolved.memory_bytes;
     options.work_folder = resolved.work_folder;
     options.disparity = range;
@@ -163,10 +163,13 @@ void run(const Settings& settings, const RunControl& control) {
     throw Error(ErrorCode::kBadInput, "none of the methods can work with these views");
 
   ContestFacts facts;
-  facts.input = fs::absolute(settings.run.input.input).lexically_normal().string();
+  facts.input = settings.run.input.input.string();
   facts.program = "gigaray " GIGARAY_VERSION;
   facts.machine = machine();
-  facts.error_range = settings.error_range;
+  // The errors of a stereo pair are those of the metrics that it is scored with.
+  facts.error_range = settings.error_range > 0              ? settings.error_range
+                      : contest.light_field.num_views() > 2 ? 0.2
+                                                            : 1;
   const FloatMap& shape = contest.truth ? *contest.truth : contestants.front().disparity;
   const std::vector<CloseUp> squares = close_ups(shape, 3);
   write_contest_pictures(folder.path(), contest, contestants, squares, facts);
@@ -191,7 +194,7 @@ void run(const Settings& settings, const RunControl& control) {
 Run compare_command(CLI::App& app) {
   app.description("This method beside the stereo baselines: numbers, pictures, one HTML page");
   const auto settings = std::make_shared<Settings>();
-  settings->run.add_to(app);
+  settings->run.add_all_but_preset_to(app);
   app.add_option(
          "--truth", settings->truth,
          "True disparity of the centre view: a map, or a folder with truth.pfm, "
@@ -218,10 +221,9 @@ Run compare_command(CLI::App& app) {
       ->type_name("N")
       ->capture_default_str();
   app.add_option("--error-range", settings->error_range,
-                 "Error in px with the full colour of the error maps")
+                 "Error in px with the full colour of the error maps (default: 0.2, of a pair 1)")
       ->check(above_zero())
-      ->type_name("PX")
-      ->capture_default_str();
+      ->type_name("PX");
   app.add_flag("--json", settings->json, "Print compare.json to stdout");
   return [settings](const RunControl& control) { run(*settings, control); };
 }

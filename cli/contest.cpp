@@ -25,14 +25,28 @@ double median(std::vector<double> values) {
   return values.size() % 2 == 1 ? values[half] : (values[half - 1] + values[half]) / 2;
 }
 
-/// The run once more until there are as many times as asked for.
+/// A map and how long it took.
+struct Timed {
+  FloatMap disparity;
+  double seconds = 0;
+};
+
 template <class Run>
-double timed(const Contest& contest, const std::string& name, const FloatMap& disparity,
-             double first, Run run) {
-  std::vector<double> seconds{first};
+Timed timed(Run run) {
+  const auto begin = std::chrono::steady_clock::now();
+  Timed result{run(), 0};
+  result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  return result;
+}
+
+/// Median time of the first run and of as many more as are asked for.
+template <class Run>
+double median_seconds(const Contest& contest, const std::string& name, const Timed& first,
+                      Run run) {
+  std::vector<double> seconds{first.seconds};
   while (int(seconds.size()) < contest.repeats) {
-    const baselines::Estimate again = run();
-    if (!is_same(again.disparity, disparity))
+    const Timed again = timed(run);
+    if (!is_same(again.disparity, first.disparity))
       throw Error(ErrorCode::kDevice, name + ": gives another map when it is run again");
     seconds.push_back(again.seconds);
   }
@@ -69,24 +83,19 @@ Contestant run_ours(const Contest& contest, const DepthOptions& options,
   ours.title = "Gigaray, preset " + options.preset;
   ours.reference = "Kim et al. 2013";
   ours.is_ours = true;
-  std::string device;
   const auto run = [&] {
     DepthOptions own = options;
     own.views = {contest.view};
-    const auto begin = std::chrono::steady_clock::now();
     Reconstruction result = reconstruct(contest.light_field, own, backend, control);
-    baselines::Estimate estimate{result.view(contest.view).disparity, {}, 0};
-    estimate.seconds =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     ours.searched = {result.hypotheses().min, result.hypotheses().max};
     ours.parameters =
         fmt::format("{} hypotheses; device {}", result.hypotheses().count, result.device());
-    return estimate;
+    return result.view(contest.view).disparity;
   };
-  baselines::Estimate estimate = run();
+  Timed first = timed(run);
   ours.views = fmt::format("{} views", contest.light_field.num_views());
-  ours.seconds = timed(contest, ours.name, estimate.disparity, estimate.seconds, run);
-  ours.disparity = std::move(estimate.disparity);
+  ours.seconds = median_seconds(contest, ours.name, first, run);
+  ours.disparity = std::move(first.disparity);
   score(contest, ours);
   return ours;
 }
@@ -102,22 +111,23 @@ std::optional<Contestant> run_baseline(const Contest& contest, const baselines::
   contestant.reference = baseline.reference;
   contestant.parameters = baseline.parameters;
   contestant.searched = contest.range;
-  double least = std::numeric_limits<double>::infinity(), seconds = 0;
+  double least = std::numeric_limits<double>::infinity();
   const baselines::Trial* best = nullptr;
+  Timed first;
   for (const baselines::Trial& trial : trials) {
     control.progress(baseline.name, double(&trial - trials.data()), double(trials.size()));
-    baselines::Estimate estimate = trial.run(control);
-    const double value = measure(contest, estimate.disparity);
+    Timed result = timed([&] { return trial.run(control).disparity; });
+    const double value = measure(contest, result.disparity);
     contestant.choices.push_back({trial.views_text, value});
     if (best && !(value < least)) continue;
     least = value;
     best = &trial;
-    seconds = estimate.seconds;
     contestant.views = trial.views_text;
-    contestant.disparity = std::move(estimate.disparity);
+    first = std::move(result);
   }
-  contestant.seconds = timed(contest, baseline.name, contestant.disparity, seconds,
-                             [&] { return best->run(control); });
+  contestant.seconds =
+      median_seconds(contest, baseline.name, first, [&] { return best->run(control).disparity; });
+  contestant.disparity = std::move(first.disparity);
   score(contest, contestant);
   control.progress(baseline.name, 1, 1);
   return contestant;

@@ -72,6 +72,12 @@ std::string figure(const fs::path& path, const std::string& caption) {
                      embedded(path), escaped(caption), escaped(caption));
 }
 
+/// The last part of a path that may end with a slash.
+std::string name_of(const fs::path& path) {
+  const fs::path whole = fs::absolute(path).lexically_normal();
+  return (whole.has_filename() ? whole : whole.parent_path()).filename().string();
+}
+
 std::string table_of(const Contest& contest, const std::vector<Contestant>& contestants) {
   const auto rows = contest_table(contest, contestants);
   std::string text = "<table><thead><tr>";
@@ -155,7 +161,7 @@ std::string contest_page(const fs::path& folder, const Contest& contest,
                          const std::vector<Contestant>& contestants,
                          const std::vector<CloseUp>& squares, const ContestFacts& facts) {
   const LightField& light_field = contest.light_field;
-  const std::string title = "Comparison: " + fs::path(facts.input).filename().string();
+  const std::string title = "Comparison: " + name_of(facts.input);
   std::string text = fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
       "content=\"width=device-width\"><title>{0}</title><style>{1}</style></head><body>\n"

@@ -24,8 +24,18 @@ void add_memory_option(CLI::App& app, double& gib) {
 }
 
 void DepthRunOptions::add_to(CLI::App& app) {
-  input.add_to(app);
+  add_all_but_preset_to(app);
   add_preset_option(app, preset);
+  app.add_option(
+         "--partners", most_partners,
+         "Photographs with cameras: compare each with so many others, those that share most "
+         "of its scene from an angle that tells most (default: all that share enough)")
+      ->check(CLI::Range(1, 1000))
+      ->type_name("N");
+}
+
+void DepthRunOptions::add_all_but_preset_to(CLI::App& app) {
+  input.add_to(app);
   app.add_option(
          "--disparity", disparity,
          "Range to test, px per view step, positive is nearer; of photographs with cameras inverse "
@@ -36,12 +46,6 @@ void DepthRunOptions::add_to(CLI::App& app) {
          "--hypotheses", hypotheses,
          "Number of disparities to test, 2 … 4096 (default: 256 for paper, one every 0.035 px for "
          "auto; of photographs with cameras as many as their distances ask for)")
-      ->type_name("N");
-  app.add_option(
-         "--partners", most_partners,
-         "Photographs with cameras: compare each with so many others, those that share most "
-         "of its scene from an angle that tells most (default: all that share enough)")
-      ->check(CLI::Range(1, 1000))
       ->type_name("N");
   app.add_option("--device", device,
                  "OpenCL device: index or part of its name, see `gigaray devices`; `reference` for "

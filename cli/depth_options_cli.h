@@ -14,7 +14,7 @@ namespace gigaray::cli {
 void add_preset_option(CLI::App& app, std::string& preset);
 void add_memory_option(CLI::App& app, double& gib);
 
-/// INPUT and the options that decide the result; shared by `depth` and `probe`.
+/// INPUT and the options that decide the result; shared by `depth`, `probe` and `compare`.
 struct DepthRunOptions {
   InputOptions input;
   std::string preset = "auto";
@@ -26,6 +26,8 @@ struct DepthRunOptions {
   std::string work_folder;
 
   void add_to(CLI::App& app);
+  /// The same without --preset and --partners.
+  void add_all_but_preset_to(CLI::App& app);
   BackendChoice backend() const;
   /// The options of the engine. Checks the direction of travel, which may turn the axes of the
   /// light field around.

@@ -25,12 +25,12 @@ struct Problem {
 struct Estimate {
   FloatMap disparity;      ///< px per view step, (v, u); NaN: none
   std::vector<int> views;  ///< those that it looked at, the reference first
-  double seconds = 0;      ///< from pictures in memory to the map
 };
 
 /// One choice of views that a baseline may be given.
 struct Trial {
   std::string views_text;  ///< "views 40 and 44"
+  /// Reads the pictures and finds the map.
   std::function<Estimate(const RunControl&)> run;
 };
 

@@ -21,6 +21,15 @@ std::vector<int> EpiStack::views_from_reference() const {
   return result;
 }
 
+std::vector<cv::Mat> EpiStack::pictures(const Problem& problem) const {
+  std::vector<cv::Mat> result;
+  for (const int view : views) {
+    result.push_back(picture_of(problem.light_field, view));
+    if (direction == Direction::kColumn) cv::transpose(result.back(), result.back());
+  }
+  return result;
+}
+
 std::optional<EpiStack> epi_stack(const Problem& problem, Direction direction, int most_each_side) {
   const LightField& light_field = problem.light_field;
   const bool is_row = direction == Direction::kRow;
@@ -32,6 +41,7 @@ std::optional<EpiStack> epi_stack(const Problem& problem, Direction direction, i
   };
   const double most = std::max({std::abs(problem.range.min), std::abs(problem.range.max), 1e-6});
   EpiStack stack;
+  stack.direction = direction;
   for (int view = 0; view < light_field.num_views(); ++view)
     if (std::abs(across(view) - across(problem.view)) * most < kMostParallax)
       stack.views.push_back(view);
@@ -51,11 +61,6 @@ std::optional<EpiStack> epi_stack(const Problem& problem, Direction direction, i
   const double step = (stack.steps.back() - stack.steps.front()) / double(stack.steps.size() - 1);
   for (std::size_t i = 1; i < stack.steps.size(); ++i)
     if (std::abs(stack.steps[i] - stack.steps[i - 1] - step) > kUneven * step) return {};
-  for (const int view : stack.views) {
-    cv::Mat picture = picture_of(light_field, view);
-    if (!is_row) cv::transpose(picture, picture);
-    stack.pictures.push_back(picture);
-  }
   return stack;
 }
 

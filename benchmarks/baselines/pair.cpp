@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 #include "baselines/pictures.h"
@@ -82,13 +81,11 @@ std::vector<Trial> pair_trials(const Problem& problem, const Match& match, int m
     if ((problem.range.max - problem.range.min) * std::abs(other.steps) + 3 > most_labels) continue;
     const auto run = [problem, other, match](const RunControl& control) {
       const Pair pair = pair_of(problem, other);
-      const auto begin = std::chrono::steady_clock::now();
       cv::Mat disparity = match(pair, control);
       fill_from_farther(disparity);
       disparity /= std::abs(other.steps);
       if (other.steps < 0) cv::flip(disparity, disparity, 1);
-      const std::chrono::duration<double> time = std::chrono::steady_clock::now() - begin;
-      return Estimate{map_of(disparity), {problem.view, other.view}, time.count()};
+      return Estimate{map_of(disparity), {problem.view, other.view}};
     };
     trials.push_back({fmt::format("views {} and {}", problem.light_field.views[problem.view].name,
                                   problem.light_field.views[other.view].name),

@@ -3,7 +3,6 @@
 // Slopes of epipolar-plane images by the structure tensor (Wanner and Goldlücke 2012).
 #include <fmt/format.h>
 
-#include <chrono>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
@@ -44,12 +43,13 @@ void kernels(double sigma, std::vector<float>& smooth, std::vector<float>& deriv
 }
 
 /// The stack as if all points were nearer by `shear` px per view step, CV_32FC3.
-std::vector<cv::Mat> sheared(const EpiStack& stack, int shear) {
+std::vector<cv::Mat> sheared(const EpiStack& stack, const std::vector<cv::Mat>& pictures,
+                             int shear) {
   std::vector<cv::Mat> result;
   for (int j = 0; j < stack.size(); ++j) {
     const cv::Mat shift = (cv::Mat_<double>(2, 3) << 1, 0, -stack.steps[j] * shear, 0, 1, 0);
     cv::Mat picture, moved;
-    stack.pictures[j].convertTo(picture, CV_32F);
+    pictures[j].convertTo(picture, CV_32F);
     cv::warpAffine(picture, moved, shift, picture.size(), cv::INTER_CUBIC | cv::WARP_INVERSE_MAP,
                    cv::BORDER_REPLICATE);
     result.push_back(moved);
@@ -108,13 +108,15 @@ Slopes tensor(const std::vector<cv::Mat>& stack, int reference) {
 }
 
 /// Of all shears the most coherent slope.
-Slopes slopes_of(const EpiStack& stack, DisparityRange range, const RunControl& control) {
+Slopes slopes_of(const EpiStack& stack, const Problem& problem, const RunControl& control) {
+  const std::vector<cv::Mat> pictures = stack.pictures(problem);
+  const DisparityRange range = problem.range;
   const auto step = float((stack.steps.back() - stack.steps.front()) / (stack.size() - 1));
-  Slopes best{cv::Mat(stack.pictures[0].size(), CV_32F, cv::Scalar(kNoEstimate)),
-              cv::Mat::zeros(stack.pictures[0].size(), CV_32F)};
+  Slopes best{cv::Mat(pictures[0].size(), CV_32F, cv::Scalar(kNoEstimate)),
+              cv::Mat::zeros(pictures[0].size(), CV_32F)};
   for (int shear = int(std::lround(range.min)); shear <= int(std::lround(range.max)); ++shear) {
     control.throw_if_cancelled();
-    const Slopes slopes = tensor(sheared(stack, shear), stack.reference);
+    const Slopes slopes = tensor(sheared(stack, pictures, shear), stack.reference);
     for (int v = 0; v < best.disparity.rows; ++v)
       for (int u = 0; u < best.disparity.cols; ++u) {
         const float slope = slopes.disparity.at<float>(v, u);
@@ -130,12 +132,12 @@ Slopes slopes_of(const EpiStack& stack, DisparityRange range, const RunControl& 
   return best;
 }
 
-Slopes of_all(const std::vector<std::pair<Direction, EpiStack>>& stacks, DisparityRange range,
+Slopes of_all(const std::vector<EpiStack>& stacks, const Problem& problem,
               const RunControl& control) {
   Slopes result;
-  for (const auto& [direction, stack] : stacks) {
-    Slopes slopes = slopes_of(stack, range, control);
-    if (direction == Direction::kColumn)
+  for (const EpiStack& stack : stacks) {
+    Slopes slopes = slopes_of(stack, problem, control);
+    if (stack.direction == Direction::kColumn)
       for (cv::Mat* map : {&slopes.disparity, &slopes.coherence}) cv::transpose(*map, *map);
     if (result.disparity.empty()) {
       result = slopes;
@@ -198,25 +200,23 @@ cv::Mat labelled(const Slopes& slopes, const cv::Mat& picture, DisparityRange ra
 
 /// All views of the row and the column through the view, as far as the filters reach.
 std::vector<Trial> trials(const Problem& problem, bool with_labelling) {
-  std::vector<std::pair<Direction, EpiStack>> stacks;
+  std::vector<EpiStack> stacks;
   std::vector<int> views{problem.view};
   for (const Direction direction : {Direction::kRow, Direction::kColumn})
     if (auto stack = epi_stack(problem, direction, kEachSide)) {
       const std::vector<int> own = stack->views_from_reference();
       views.insert(views.end(), own.begin() + 1, own.end());
-      stacks.emplace_back(direction, std::move(*stack));
+      stacks.push_back(std::move(*stack));
     }
   if (stacks.empty()) return {};
   const auto run = [=](const RunControl& control) {
-    const auto begin = std::chrono::steady_clock::now();
-    const Slopes slopes = of_all(stacks, problem.range, control);
+    const Slopes slopes = of_all(stacks, problem, control);
     cv::Mat disparity = slopes.disparity;
     if (with_labelling)
       disparity =
           labelled(slopes, picture_of(problem.light_field, problem.view), problem.range, control);
     fill_from_farther(disparity);
-    const std::chrono::duration<double> time = std::chrono::steady_clock::now() - begin;
-    return Estimate{map_of(disparity), views, time.count()};
+    return Estimate{map_of(disparity), views};
   };
   return {{fmt::format("{} views", views.size()), run}};
 }
