@@ -25,6 +25,7 @@ th, td { padding: .25em .7em; text-align: right; border-bottom: 1px solid #ddd }
 th { border-bottom: 2px solid #888; vertical-align: bottom }
 th:first-child, td:first-child, th:last-child, td:last-child { text-align: left }
 tr.ours { background: #eef6ee } td.best { font-weight: bold }
+.wide { overflow-x: auto; font-size: .85em }
 .row { display: flex; flex-wrap: wrap; gap: 1em; margin: .5em 0 1.5em }
 figure { margin: 0 } figcaption { font-size: .85em; color: #555 }
 .map img { width: 260px } .pair { display: flex; flex-direction: column; gap: .3em }
@@ -107,7 +108,7 @@ std::string table_of(const Contest& contest, const std::vector<Contestant>& cont
 std::string agreement_table(const std::vector<Contestant>& contestants) {
   std::string text = fmt::format(
       "<h2>Agreement</h2><p>% of pixels where two maps differ by no more than {} px per view "
-      "step.</p><table><thead><tr><th></th>",
+      "step.</p><div class=\"wide\"><table><thead><tr><th></th>",
       kAgreement);
   for (const Contestant& b : contestants) text += "<th>" + escaped(b.name) + "</th>";
   text += "<th></th></tr></thead><tbody>\n";
@@ -117,7 +118,7 @@ std::string agreement_table(const std::vector<Contestant>& contestants) {
       text += fmt::format("<td>{:.1f}</td>", agreement(a.disparity, b.disparity, kAgreement));
     text += "<td></td></tr>\n";
   }
-  return text + "</tbody></table>\n";
+  return text + "</tbody></table></div>\n";
 }
 
 /// Close-ups side by side, of two pictures one above the other; below: may be empty.
@@ -169,11 +170,13 @@ std::string contest_page(const fs::path& folder, const Contest& contest,
       escaped(title), kStyle);
   text += fmt::format(
       "<p>{} {} views of {} × {} ({}), depth of view {}, disparities {:.3g} … {:.3g} px per view "
-      "step. {}, {}.{}</p>\n",
+      "step. {}, {}. Times hold the reading of the pictures.{}</p>\n",
       light_field.num_views(), to_string(light_field.kind), light_field.width, light_field.height,
       escaped(light_field.format), escaped(light_field.views[contest.view].name), contest.range.min,
-      contest.range.max, escaped(facts.program), escaped(facts.machine), contest.repeats,
-      contest.repeats == 1 ? "" : "s");
+      contest.range.max, escaped(facts.program), escaped(facts.machine),
+      contest.repeats == 1 ? ""
+                           : fmt::format(" Times are medians of {} runs, which gave the same maps.",
+                                         contest.repeats));
   text += contest.truth
               ? fmt::format("<p>Truth: {}. HCI metrics leave {} px at the border out.</p>",
                             escaped(contest.truth_place.filename().string()), 15)

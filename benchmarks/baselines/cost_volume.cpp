@@ -63,6 +63,7 @@ cv::Mat match(const Pair& pair, const RunControl& control) {
   cv::Mat disparity = agreed(winners(pair, control), winners(pair.turned(), control), 1);
   const cv::Mat holes = disparity != disparity;
   fill_from_farther(disparity);
+  cv::setRNGSeed(1);  // The weighted median clusters colours from a random start.
   // Filled pixels take a weighted median, so that they don't show as stripes.
   cv::Mat smooth;
   cv::ximgproc::weightedMedianFilter(pair.reference, disparity, smooth, kMedianRadius,
