@@ -4,9 +4,10 @@
 """Files reports of the benchmark programs under results/DEVICE/ and renews the tables of README.md.
 
     report.py kernels.json end_to_end.json [--accuracy accuracy.json]
+    report.py compared/*/compare.json experiments/*/results.json
 
-The inputs are what --benchmark_out=FILE of the programs and --json FILE of accuracy/score_folder
-write. Of several reports of the same program, the one with the higher figures was the less disturbed:
+The inputs are what --benchmark_out=FILE of the programs, --json FILE of accuracy/score_folder,
+`gigaray compare` and gigaray_experiments write. Of several reports of the same program, the one with the higher figures was the less disturbed:
 run again when the machine was busy, and file that. Names of hosts and paths are left out.
 """
 
@@ -109,6 +110,75 @@ def renew(readme, marker, text):
     return f"{before}{begin}\n{text}\n{end}{after}"
 
 
+def folder_of(device):
+    """Of the engine's name: opencl: NAME (PLATFORM)."""
+    return HERE / "results" / device_folder(re.sub(r"^\w+: | \(.*\)$", "", device))
+
+
+def file_comparison(report):
+    """results/DEVICE/compare/SCENE.json: no maps, no paths."""
+    scene = pathlib.PurePath(report["input"]).name
+    report = {"commit": commit(), **report, "input": scene}
+    if report["truth"]:
+        report["truth"] = pathlib.PurePath(report["truth"]).name
+    folder = folder_of(report["device"]) / "compare"
+    folder.mkdir(parents=True, exist_ok=True)
+    (folder / f"{scene}.json").write_text(json.dumps(report, indent=1) + "\n")
+    return folder
+
+
+def file_experiment(report):
+    folder = folder_of(report["device"]) / "experiments"
+    folder.mkdir(parents=True, exist_ok=True)
+    name = f"{report['experiment']}-{report['rows'][0]['scene']}.json"
+    (folder / name).write_text(json.dumps({"commit": commit(), **report}, indent=1) + "\n")
+    return folder
+
+
+def score(method, name, digits=2):
+    number = method["scores"].get(name)
+    return "–" if number is None else f"{number:.{digits}f}"
+
+
+def comparison_tables(folder):
+    """Light fields with truth, without, stereo pairs: a table each, methods as rows."""
+    reports = [json.loads(path.read_text()) for path in sorted(folder.glob("*.json"))]
+    kinds = [("BadPix 0.07 (near jumps)", lambda r: r["truth"] and r["num_views"] > 2,
+              lambda m: f"{score(m, 'BadPix0.07')} ({score(m, 'NearJumps', 1)})"),
+             ("photo-consistency", lambda r: not r["truth"],
+              lambda m: score(m, "PhotoConsistency")),
+             ("bad 1 px (seen by both), %", lambda r: r["truth"] and r["num_views"] == 2,
+              lambda m: f"{score(m, 'bad1.0', 1)} ({score(m, 'nonocc.bad1.0', 1)})")]
+    parts = []
+    for heading, belongs, cell in kinds:
+        own = [report for report in reports if belongs(report)]
+        titles = list(dict.fromkeys(m["title"] for report in own for m in report["methods"]))
+        rows = []
+        for title in titles:
+            row = [title]
+            for report in own:
+                found = [m for m in report["methods"] if m["title"] == title]
+                row.append(f"{cell(found[0])}, {found[0]['seconds']:.2f} s" if found else "–")
+            rows.append(row)
+        if own:
+            parts.append(table([heading] + [report["input"] for report in own], rows))
+    return "\n\n".join(parts)
+
+
+def experiment_tables(folder):
+    parts = []
+    for path in sorted(folder.glob("*.json")):
+        report = json.loads(path.read_text())
+        rows = [[row["label"].replace("_", " "), str(row["views"]), f"{row['BadPix0.07']:.2f}",
+                 f"{row['MSEx100']:.2f}", f"{row['NearJumps']:.2f}", f"{100 * row['SAD']:.2f}",
+                 f"{row['seconds']:.2f}", f"{row['memory_mib']:.0f}"] for row in report["rows"]]
+        parts.append(f"`{report['experiment']}`, {report['rows'][0]['scene']}: "
+                     f"{report['question']}.\n\n" +
+                     table(["", "views", "BadPix 0.07", "MSE × 100", "near jumps",
+                            "mean error, % of the range", "s", "MiB"], rows))
+    return "\n\n".join(parts)
+
+
 def caption(report):
     return (f"{report['device']}, {report['compute_units']} compute units, driver "
             f"{report['driver']}; version {report['gigaray_version']}, commit {report['commit']}, "
@@ -124,7 +194,15 @@ def main():
     readme = (HERE / "README.md").read_text()
     folder = None
     for path in arguments.reports:
-        report = condensed(json.loads(path.read_text()))
+        report = json.loads(path.read_text())
+        if report.get("format") == "gigaray compare":
+            text = comparison_tables(file_comparison(report))
+            readme = renew(readme, "comparisons", text)
+            continue
+        if report.get("format") == "gigaray experiment":
+            readme = renew(readme, "experiments", experiment_tables(file_experiment(report)))
+            continue
+        report = condensed(report)
         is_kernels = any(name.startswith("density_score") for name in report["benchmarks"])
         folder = HERE / "results" / device_folder(report["device"])
         folder.mkdir(parents=True, exist_ok=True)

@@ -88,6 +88,7 @@ Contestant run_ours(const Contest& contest, const DepthOptions& options,
     own.views = {contest.view};
     Reconstruction result = reconstruct(contest.light_field, own, backend, control);
     ours.searched = {result.hypotheses().min, result.hypotheses().max};
+    ours.device = result.device();
     ours.parameters =
         fmt::format("{} hypotheses; device {}", result.hypotheses().count, result.device());
     return result.view(contest.view).disparity;

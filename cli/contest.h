@@ -36,6 +36,7 @@ inline constexpr const char* kPhotoConsistency = "PhotoConsistency";
 struct Contestant {
   std::string name, title, reference, parameters;
   bool is_ours = false;
+  std::string device;  ///< of ours
   DisparityRange searched;
   FloatMap disparity;
   std::string views;            ///< that it looked at

@@ -144,6 +144,8 @@ ordered_json contest_json(const Contest& contest, const std::vector<Contestant>&
       {"version", 1},
       {"program", facts.program},
       {"input", facts.input},
+      {"device",
+       contestants.front().is_ours ? ordered_json(contestants.front().device) : ordered_json()},
       {"machine", facts.machine},
       {"light_field", light_field.format},
       {"kind", to_string(light_field.kind)},
