@@ -112,7 +112,7 @@ def renew(readme, marker, text):
 
 def folder_of(device):
     """Of the engine's name: opencl: NAME (PLATFORM)."""
-    return HERE / "results" / device_folder(re.sub(r"^\w+: | \(.*\)$", "", device))
+    return HERE / "results" / device_folder(re.sub(r"^\w+: | \(.*\)$", "", device or "unknown"))
 
 
 def file_comparison(report):

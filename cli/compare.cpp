@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <memory>
 #include <optional>
@@ -65,6 +66,14 @@ std::vector<baselines::Baseline> chosen_baselines(const Settings& settings) {
   return chosen;
 }
 
+/// Is a view left out that is nearer to the centre of the rig than the one that is scored?
+bool leaves_out_centre(const Contest& contest) {
+  const auto distance = [](const View& view) { return std::hypot(view.s, view.t); };
+  const double own = distance(contest.light_field.views[contest.view]);
+  return std::ranges::any_of(contest.light_field.left_out,
+                             [&](const View& view) { return distance(view) < own - 1e-9; });
+}
+
 /// The truth that was named, or the one in the folder of the input.
 void find_truth_for(Contest& contest, const Settings& settings, const RunControl& control) {
   const bool is_named = !settings.truth.empty();
@@ -78,12 +87,20 @@ void find_truth_for(Contest& contest, const Settings& settings, const RunControl
     return;
   }
   const LightField& light_field = contest.light_field;
-  contest.truth = read_truth(contest.truth_place);
-  if (contest.truth->width() != light_field.width || contest.truth->height() != light_field.height)
+  FloatMap truth = read_truth(contest.truth_place);
+  const bool fits = truth.width() == light_field.width && truth.height() == light_field.height;
+  if (!is_named && (!fits || leaves_out_centre(contest))) {
+    control.message(fmt::format("{} is of {}: maps are compared with each other",
+                                contest.truth_place.string(),
+                                fits ? "a view that is left out" : "another size"));
+    contest.truth_place.clear();
+    return;
+  }
+  if (!fits)
     throw Error(ErrorCode::kBadInput,
                 fmt::format("{}: is {} x {}, the views are {} x {}", contest.truth_place.string(),
-                            contest.truth->width(), contest.truth->height(), light_field.width,
-                            light_field.height));
+                            truth.width(), truth.height(), light_field.width, light_field.height));
+  contest.truth = std::move(truth);
   contest.parts = read_scene_parts(place, {}, light_field.width, light_field.height);
   if (!is_named) control.message("truth: " + contest.truth_place.string());
 }
@@ -157,7 +174,7 @@ void run(const Settings& settings, const RunControl& control) {
     if (auto contestant = run_baseline(contest, baseline, control))
       contestants.push_back(std::move(*contestant));
     else
-      control.message(baseline.name + ": left out, the views don't allow it");
+      control.message(baseline.name + ": left out, the views or the range don't allow it");
   }
   if (contestants.empty())
     throw Error(ErrorCode::kBadInput, "none of the methods can work with these views");
@@ -178,7 +195,7 @@ void run(const Settings& settings, const RunControl& control) {
                         contest_page(folder.path(), contest, contestants, squares, facts));
   const std::string json = contest_json(contest, contestants, facts)
                                .dump(2, ' ', false, nlohmann::json::error_handler_t::replace);
-  write_file_atomically(folder.path() / "compare.json", json);
+  write_file_atomically(folder.path() / "compare.json", json + "\n");
   folder.commit();
   if (settings.json) {
     fmt::print("{}\n", json);
@@ -216,7 +233,8 @@ Run compare_command(CLI::App& app) {
                  "A program for stereo pairs too, described in JSON (docs/formats.md)")
       ->allow_extra_args(false)
       ->type_name("FILE");
-  app.add_option("--repeats", settings->repeats, "Time every run so often; the median counts")
+  app.add_option("--repeats", settings->repeats,
+                 "Time every run so often, after one that is not timed; the median counts")
       ->check(CLI::Range(1, 1000))
       ->type_name("N")
       ->capture_default_str();

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 
 #include "baselines/photo_consistency.h"
 #include "gigaray/metrics.h"
@@ -25,38 +26,34 @@ double median(std::vector<double> values) {
   return values.size() % 2 == 1 ? values[half] : (values[half - 1] + values[half]) / 2;
 }
 
-/// A map and how long it took.
-struct Timed {
-  FloatMap disparity;
-  double seconds = 0;
-};
-
+/// Median time of as many runs as are asked for, after a first one that gave `disparity`.
 template <class Run>
-Timed timed(Run run) {
-  const auto begin = std::chrono::steady_clock::now();
-  Timed result{run(), 0};
-  result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  return result;
-}
-
-/// Median time of the first run and of as many more as are asked for.
-template <class Run>
-double median_seconds(const Contest& contest, const std::string& name, const Timed& first,
+double median_seconds(const Contest& contest, const std::string& name, const FloatMap& disparity,
                       Run run) {
-  std::vector<double> seconds{first.seconds};
+  std::vector<double> seconds;
   while (int(seconds.size()) < contest.repeats) {
-    const Timed again = timed(run);
-    if (!is_same(again.disparity, first.disparity))
+    const auto begin = std::chrono::steady_clock::now();
+    const FloatMap again = run();
+    const std::chrono::duration<double> time = std::chrono::steady_clock::now() - begin;
+    if (!is_same(again, disparity))
       throw Error(ErrorCode::kDevice, name + ": gives another map when it is run again");
-    seconds.push_back(again.seconds);
+    seconds.push_back(time.count());
   }
   return median(std::move(seconds));
+}
+
+double share_of_estimates(const FloatMap& map) {
+  const auto known = std::ranges::count_if(map, [](float d) { return std::isfinite(d); });
+  return 100 * double(known) / double(map.size());
 }
 
 void score(const Contest& contest, Contestant& contestant) {
   if (contest.truth)
     contestant.scores = scores_of(contestant.disparity, *contest.truth, contest.parts,
                                   {.hci = true, .middlebury = true, .border = {}});
+  if (!contest.truth)
+    contestant.scores.push_back(
+        {"filled", share_of_estimates(contestant.disparity), "% of pixels"});
   contestant.scores.push_back(
       {kPhotoConsistency,
        baselines::photo_consistency(contest.light_field, contest.view, contestant.disparity),
@@ -81,11 +78,11 @@ Contestant run_ours(const Contest& contest, const DepthOptions& options,
   Contestant ours;
   ours.name = "gigaray_" + options.preset;
   ours.title = "Gigaray, preset " + options.preset;
-  ours.reference = "Kim et al. 2013";
+  ours.reference = options.preset == "paper" ? "Kim et al. 2013" : "after Kim et al. 2013";
   ours.is_ours = true;
+  DepthOptions own = options;
+  own.views = {contest.view};
   const auto run = [&] {
-    DepthOptions own = options;
-    own.views = {contest.view};
     Reconstruction result = reconstruct(contest.light_field, own, backend, control);
     ours.searched = {result.hypotheses().min, result.hypotheses().max};
     ours.device = result.device();
@@ -93,10 +90,10 @@ Contestant run_ours(const Contest& contest, const DepthOptions& options,
         fmt::format("{} hypotheses; device {}", result.hypotheses().count, result.device());
     return result.view(contest.view).disparity;
   };
-  Timed first = timed(run);
+  ours.disparity = run();
+  own.disparity = ours.searched;  // The others are told it too.
   ours.views = fmt::format("{} views", contest.light_field.num_views());
-  ours.seconds = median_seconds(contest, ours.name, first, run);
-  ours.disparity = std::move(first.disparity);
+  ours.seconds = median_seconds(contest, ours.name, ours.disparity, run);
   score(contest, ours);
   return ours;
 }
@@ -111,24 +108,21 @@ std::optional<Contestant> run_baseline(const Contest& contest, const baselines::
   contestant.title = baseline.title;
   contestant.reference = baseline.reference;
   contestant.parameters = baseline.parameters;
-  contestant.searched = contest.range;
   double least = std::numeric_limits<double>::infinity();
   const baselines::Trial* best = nullptr;
-  Timed first;
   for (const baselines::Trial& trial : trials) {
     control.progress(baseline.name, double(&trial - trials.data()), double(trials.size()));
-    Timed result = timed([&] { return trial.run(control).disparity; });
-    const double value = measure(contest, result.disparity);
+    FloatMap disparity = trial.run(control).disparity;
+    const double value = measure(contest, disparity);
     contestant.choices.push_back({trial.views_text, value});
-    if (best && !(value < least)) continue;
+    if (best && !(value < least || std::isnan(least))) continue;
     least = value;
     best = &trial;
     contestant.views = trial.views_text;
-    first = std::move(result);
+    contestant.disparity = std::move(disparity);
   }
-  contestant.seconds =
-      median_seconds(contest, baseline.name, first, [&] { return best->run(control).disparity; });
-  contestant.disparity = std::move(first.disparity);
+  contestant.seconds = median_seconds(contest, baseline.name, contestant.disparity,
+                                      [&] { return best->run(control).disparity; });
   score(contest, contestant);
   control.progress(baseline.name, 1, 1);
   return contestant;

@@ -21,7 +21,12 @@ struct Contest {
   std::optional<FloatMap> truth;      ///< of the view
   std::filesystem::path truth_place;  ///< empty: none
   SceneParts parts;
-  int repeats = 1;  ///< of every run that is timed
+  bool is_pair() const { return light_field.num_views() == 2; }
+  /// Pixels at the border that the main scores leave out: HCI's, of a pair Middlebury's.
+  int border() const {
+    return is_pair() ? ScoreChoice{}.middlebury_border() : ScoreChoice{}.hci_border();
+  }
+  int repeats = 1;  ///< timed runs, after one that is not
 };
 
 /// A choice of views that a method was given, and how good it was.
@@ -32,12 +37,12 @@ struct Choice {
 
 inline constexpr const char* kPhotoConsistency = "PhotoConsistency";
 
-/// A method with its best result.
+/// A method with its best result: that of the choice of views with the least measure.
 struct Contestant {
   std::string name, title, reference, parameters;
   bool is_ours = false;
-  std::string device;  ///< of ours
-  DisparityRange searched;
+  std::string device;       ///< of ours
+  DisparityRange searched;  ///< by ours
   FloatMap disparity;
   std::string views;            ///< that it looked at
   double seconds = 0;           ///< median of the repeats

@@ -178,13 +178,18 @@ std::string contest_page(const fs::path& folder, const Contest& contest,
                            : fmt::format(" Times are medians of {} runs, which gave the same maps.",
                                          contest.repeats));
   text += contest.truth
-              ? fmt::format("<p>Truth: {}. HCI metrics leave {} px at the border out.</p>",
-                            escaped(contest.truth_place.filename().string()), 15)
+              ? fmt::format(
+                    "<p>Truth: {}. {} Of the choices of views that had the least BadPix 0.07 "
+                    "was taken.</p>",
+                    escaped(contest.truth_place.filename().string()),
+                    contest.is_pair()
+                        ? ""
+                        : fmt::format("{} px at the border are left out.", contest.border()))
               : std::string(
-                    "<p>There is no truth. Photo-consistency is the mean over all "
-                    "pixels of the median difference of colours to the other "
-                    "views, of 255: it tells wrong depth only where there is "
-                    "texture.</p>");
+                    "<p>There is no truth. Photo-consistency is the mean over the pixels with an "
+                    "estimate of the median difference of colours to the other views, of 255: it "
+                    "tells wrong depth only where there is texture. Of the choices of views that "
+                    "had the least was taken.</p>");
   text += "<ul>";
   for (const std::string& sentence : verdict(contest, contestants))
     text += "<li>" + escaped(sentence) + "</li>";

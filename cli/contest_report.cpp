@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "error_map.h"
 #include "evaluate_report.h"
@@ -18,8 +19,6 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
-constexpr int kHciBorder = 15;
-
 template <class T>
 Image<T> cut(const Image<T>& picture, const CloseUp& square) {
   Image<T> part(square.size, square.size, picture.channels());
@@ -29,20 +28,19 @@ Image<T> cut(const Image<T>& picture, const CloseUp& square) {
   return part;
 }
 
-/// What the mean of a score is called in the report, and whether a table shows it.
 struct Column {
   const char *name, *heading;
 };
 
-bool is_pair(const Contest& contest) { return contest.light_field.num_views() == 2; }
-
 std::vector<Column> columns_of(const Contest& contest) {
-  if (!contest.truth) return {{kPhotoConsistency, "photo-consistency"}, {"seconds", "seconds"}};
+  if (!contest.truth)
+    return {
+        {kPhotoConsistency, "photo-consistency"}, {"filled", "filled, %"}, {"seconds", "seconds"}};
   std::vector<Column> columns{
       {"BadPix0.07", "BadPix 0.07"}, {"BadPix0.03", "0.03"}, {"BadPix0.01", "0.01"},
       {"MSEx100", "MSE × 100"},      {"Q25", "Q25"},         {"Discontinuities", "discontinuities"},
       {"NearJumps", "near jumps"}};
-  if (is_pair(contest))
+  if (contest.is_pair())
     columns = {{"bad0.5", "bad 0.5"},
                {"bad1.0", "bad 1"},
                {"bad2.0", "bad 2"},
@@ -113,7 +111,7 @@ void write_contest_pictures(const fs::path& folder, const Contest& contest,
     write_map(contestant.name, contestant.disparity);
     if (!contest.truth) continue;
     const Image<std::uint16_t> errors =
-        draw_error_map(contestant.disparity, *contest.truth, kHciBorder, facts.error_range);
+        draw_error_map(contestant.disparity, *contest.truth, contest.border(), facts.error_range);
     write_png(folder / contestant.name / "error.png", errors, 8);
     for (std::size_t k = 0; k < squares.size(); ++k)
       write_png(folder / contestant.name / fmt::format("error-{}.png", k + 1),
@@ -179,8 +177,9 @@ std::vector<std::vector<std::string>> contest_table(const Contest& contest,
   std::vector<std::vector<std::string>> table{{"method"}};
   std::vector<Column> columns;
   for (const Column& column : columns_of(contest))
-    if (!std::isnan(contestants.front().score(column.name)) ||
-        column.name == std::string("MSEx100"))
+    if (std::ranges::any_of(contestants, [&](const Contestant& contestant) {
+          return !std::isnan(contestant.score(column.name));
+        }))
       columns.push_back(column);
   for (const Column& column : columns) table.front().emplace_back(column.heading);
   table.front().emplace_back("looked at");
@@ -197,36 +196,47 @@ std::vector<std::vector<std::string>> contest_table(const Contest& contest,
 
 std::vector<std::string> verdict(const Contest& contest,
                                  const std::vector<Contestant>& contestants) {
-  std::vector<std::string> sentences;
   const auto ours = std::ranges::find_if(contestants, &Contestant::is_ours);
-  if (ours == contestants.end()) return sentences;
+  if (ours == contestants.end() || std::ranges::all_of(contestants, &Contestant::is_ours))
+    return {};
   std::vector<std::string> names{kPhotoConsistency};
   if (contest.truth)
     names = {"BadPix0.07", "BadPix0.03", "BadPix0.01", "MSEx100", "Discontinuities", "NearJumps"};
-  if (contest.truth && is_pair(contest))
+  if (contest.truth && contest.is_pair())
     names = {"bad0.5", "bad1.0", "bad2.0", "avgerr", "NearJumps"};
+  std::vector<std::string> sentences;
+  bool is_behind = false;
   for (const std::string& name : names) {
-    const double own = ours->score(name);
-    if (std::isnan(own)) continue;
-    std::vector<std::string> better;
-    int baselines = 0;
+    // A score that a map is too empty for is behind all others.
+    const auto value = [&](const Contestant& contestant) {
+      const double score = contestant.score(name);
+      return std::isnan(score) ? std::numeric_limits<double>::infinity() : score;
+    };
+    if (std::ranges::all_of(contestants, [&](const Contestant& c) { return std::isinf(value(c)); }))
+      continue;
+    std::vector<std::string> better, equal;
+    int others = 0;
     for (const Contestant& other : contestants) {
       if (other.is_ours) continue;
-      ++baselines;
-      if (other.score(name) < own)
-        better.push_back(fmt::format("{} ({:.2f})", other.title, other.score(name)));
+      ++others;
+      const std::string text = fmt::format("{} ({:.2f})", other.title, value(other));
+      if (value(other) < value(*ours)) better.push_back(text);
+      if (value(other) == value(*ours)) equal.push_back(text);
     }
-    if (baselines == 0) break;
-    sentences.push_back(better.empty()
-                            ? fmt::format("{}: {} ({:.2f}) is ahead of all {} baselines.", name,
-                                          ours->title, own, baselines)
-                            : fmt::format("{}: {} ({:.2f}) is behind {}.", name, ours->title, own,
-                                          fmt::join(better, ", ")));
+    is_behind = is_behind || !better.empty();
+    std::string sentence = fmt::format("{}: {} ({:.2f}) ", name, ours->title, value(*ours));
+    if (better.empty() && equal.empty())
+      sentence += fmt::format("is ahead of all {} others.", others);
+    else if (better.empty())
+      sentence += fmt::format("is as good as {}.", fmt::join(equal, ", "));
+    else
+      sentence += fmt::format("is behind {}.", fmt::join(better, ", "));
+    sentences.push_back(sentence);
   }
-  if (is_pair(contest))
+  if (contest.is_pair() && is_behind)
     sentences.push_back(
-        "Two views are too few for this method: it compares single rays, of which one other is "
-        "no evidence, where the baselines compare windows (so the paper, section 5).");
+        "Two views are few for this method: it compares single rays, where the others compare "
+        "windows (so the paper, section 5).");
   return sentences;
 }
 

@@ -4,7 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cmath>
-#include <limits>
+#include <cstdlib>
 #include <string>
 
 namespace gigaray::cli {
@@ -13,8 +13,9 @@ namespace gigaray::cli {
 inline CLI::Validator number_check(const char* what, bool allows_zero) {
   return CLI::Validator(
       [what, allows_zero](const std::string& text) {
-        double value = std::numeric_limits<double>::quiet_NaN();
-        const bool is_number = CLI::detail::lexical_cast(text, value) && std::isfinite(value);
+        char* end = nullptr;
+        const double value = std::strtod(text.c_str(), &end);
+        const bool is_number = !text.empty() && *end == '\0' && std::isfinite(value);
         return is_number && (value > 0 || (allows_zero && value == 0))
                    ? std::string()
                    : "is " + text + "; it must be a number " + what;

@@ -9,28 +9,31 @@
 namespace gigaray::baselines {
 namespace {
 
+constexpr int kSgbmBlock = 3, kBmBlock = 9;
+
 /// disparity(wide reference, wide other): the pair with margins, so that the columns are matched
 /// whose range leaves the picture; 16ths of px.
 template <class Matcher>
 cv::Mat matched(const Pair& pair, Matcher& matcher) {
   const int count = (pair.labels() + 15) / 16 * 16, end = pair.least + count;
-  const int margin = std::max(0, end) + std::max(0, -pair.least);
+  // Also as much as half a block, around which StereoBM has no estimate.
+  constexpr int kRim = kBmBlock / 2;
+  const int margin = std::max(0, end) + std::max(0, -pair.least) + kRim;
   matcher.setMinDisparity(pair.least);
   matcher.setNumDisparities(count);
   cv::Mat reference, other, fixed, disparity;
-  cv::copyMakeBorder(pair.reference, reference, 0, 0, margin, margin, cv::BORDER_REPLICATE);
-  cv::copyMakeBorder(pair.other, other, 0, 0, margin, margin, cv::BORDER_REPLICATE);
-  if (std::is_same_v<Matcher, cv::StereoBM>) {
+  cv::copyMakeBorder(pair.reference, reference, kRim, kRim, margin, margin, cv::BORDER_REPLICATE);
+  cv::copyMakeBorder(pair.other, other, kRim, kRim, margin, margin, cv::BORDER_REPLICATE);
+  if constexpr (std::is_same_v<Matcher, cv::StereoBM>) {
     cv::cvtColor(reference, reference, cv::COLOR_RGB2GRAY);
     cv::cvtColor(other, other, cv::COLOR_RGB2GRAY);
   }
   matcher.compute(reference, other, fixed);
-  fixed.colRange(margin, margin + pair.reference.cols).convertTo(disparity, CV_32F, 1.0 / 16);
+  const cv::Rect inside({margin, kRim}, pair.reference.size());
+  fixed(inside).convertTo(disparity, CV_32F, 1.0 / 16);
   disparity.setTo(kNoEstimate, disparity < pair.least);
   return disparity;
 }
-
-constexpr int kSgbmBlock = 3, kBmBlock = 9;
 
 }  // namespace
 

@@ -5,7 +5,6 @@
 #include <opencv2/ximgproc.hpp>
 
 #include "baselines/methods.h"
-#include "gigaray/parallel.h"
 
 namespace gigaray::baselines {
 namespace {
@@ -78,7 +77,7 @@ Baseline cost_volume() {
   return {"cost_volume", "Cost-volume filtering", "Rhemann et al. 2011; OpenCV's guided filter",
           "truncated colour 7/255 and gradient 2/255 with weights 0.1 and 0.9, guided filter with "
           "radius 9 and ε 10⁻⁴, both sides agree within 1 px, weighted median with radius 9 where "
-          "they don't; parabola between labels",
+          "they don't; parabola between labels, up to 256",
           [](const Problem& problem) { return pair_trials(problem, match, 256); }};
 }
 

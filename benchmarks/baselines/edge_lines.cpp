@@ -3,6 +3,7 @@
 // Lines fitted to the edges of epipolar-plane images (Bolles et al. 1987).
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
@@ -38,13 +39,17 @@ std::vector<Edge> edges_of(const cv::Mat& gradient, int v) {
   return edges;
 }
 
+/// Do edges rise or fall about as much?
+bool is_alike(float gradient, float other) {
+  return gradient / other > 0.5f && gradient / other < 2;
+}
+
 /// The edge nearest to a place that rises or falls as much, or nothing.
 const Edge* nearest(const std::vector<Edge>& edges, double u, float gradient) {
   const Edge* best = nullptr;
   const auto begin = std::ranges::lower_bound(edges, u - kTolerance, {}, &Edge::u);
   for (auto edge = begin; edge != edges.end() && edge->u <= u + kTolerance; ++edge) {
-    const float ratio = edge->gradient / gradient;
-    if (ratio < 0.5f || ratio > 2) continue;
+    if (!is_alike(edge->gradient, gradient)) continue;
     if (!best || std::abs(edge->u - u) < std::abs(best->u - u)) best = &*edge;
   }
   return best;
@@ -74,12 +79,12 @@ Line followed(const EpiStack& stack, const std::vector<std::vector<Edge>>& edges
               int second, const Edge& to) {
   Line line;
   line.add(0, from.u);
-  line.add(stack.steps[second], to.u);
+  line.add(stack.views[second].steps, to.u);
   for (int distance = 1; distance < stack.size(); ++distance)
     for (const int j : {stack.reference - distance, stack.reference + distance}) {
       if (j < 0 || j >= stack.size() || j == second) continue;
-      if (const Edge* edge = nearest(edges[j], line.at(stack.steps[j]), from.gradient))
-        line.add(stack.steps[j], edge->u);
+      if (const Edge* edge = nearest(edges[j], line.at(stack.views[j].steps), from.gradient))
+        line.add(stack.views[j].steps, edge->u);
     }
   return line;
 }
@@ -89,12 +94,11 @@ double disparity_of(const EpiStack& stack, const std::vector<std::vector<Edge>>&
                     const Edge& edge, DisparityRange range) {
   Line best;
   const int second = stack.reference + 1 < stack.size() ? stack.reference + 1 : stack.reference - 1;
-  const double step = stack.steps[second];
+  const double step = stack.views[second].steps;
   const double ends[] = {edge.u - step * range.min, edge.u - step * range.max};
   for (const Edge& to : edges[second]) {
     if (to.u < std::min(ends[0], ends[1]) || to.u > std::max(ends[0], ends[1])) continue;
-    const float ratio = to.gradient / edge.gradient;
-    if (ratio < 0.5f || ratio > 2) continue;
+    if (!is_alike(to.gradient, edge.gradient)) continue;
     const Line line = followed(stack, edges, edge, second, to);
     if (line.count() > best.count() ||
         (line.count() == best.count() && line.residual() < best.residual()))
@@ -121,8 +125,8 @@ void interpolate(float* row, int width, const std::vector<std::pair<double, doub
   }
 }
 
-cv::Mat lines_of(const EpiStack& stack, const std::vector<cv::Mat>& pictures,
-                 DisparityRange range) {
+cv::Mat lines_of(const EpiStack& stack, const std::vector<cv::Mat>& pictures, DisparityRange range,
+                 const RunControl& control) {
   std::vector<cv::Mat> gradients;
   for (const cv::Mat& picture : pictures) {
     cv::Mat grey, gradient;
@@ -144,15 +148,18 @@ cv::Mat lines_of(const EpiStack& stack, const std::vector<cv::Mat>& pictures,
             known.emplace_back(edge.u, d);
         interpolate(disparity.ptr<float>(v), disparity.cols, known);
       },
-      [](int) {});
+      [&](int) { control.throw_if_cancelled(); });
   return disparity;
 }
 
 std::vector<Trial> trials(const Problem& problem) {
-  const auto stack = epi_stack(problem, Direction::kRow, kEachSide);
+  auto stack = epi_stack(problem, Direction::kRow, kEachSide);
+  if (!stack) stack = epi_stack(problem, Direction::kColumn, kEachSide);
   if (!stack) return {};
-  const auto run = [stack = *stack, problem](const RunControl&) {
-    const cv::Mat disparity = lines_of(stack, stack.pictures(problem), problem.range);
+  const auto run = [stack = *stack, problem](const RunControl& control) {
+    cv::Mat disparity = lines_of(stack, stack.pictures(problem), problem.range, control);
+    fill_from_farther(disparity);
+    if (stack.direction == Direction::kColumn) cv::transpose(disparity, disparity);
     return Estimate{map_of(disparity), stack.views_from_reference()};
   };
   return {{fmt::format("{} views", stack->size()), run}};

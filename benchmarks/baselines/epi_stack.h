@@ -6,22 +6,19 @@
 #include <optional>
 #include <vector>
 
-#include "baselines/baseline.h"
+#include "baselines/view_line.h"
 
 namespace gigaray::baselines {
 
-enum class Direction { kRow, kColumn };
-
-/// Views of one row of the rig, or of one column with pictures transposed, so that either way a
-/// point at (u, v) of the reference is at (u − steps[j] · d, v) of view j.
+/// Views of one row or column, about equally far apart.
 struct EpiStack {
   Direction direction = Direction::kRow;
-  std::vector<int> views;     ///< of the light field
-  std::vector<double> steps;  ///< from the reference, rising, about equally far apart
-  int reference = 0;          ///< index into both
+  std::vector<Neighbour> views;  ///< rising
+  int reference = 0;             ///< index of the problem's view
   int size() const { return int(views.size()); }
-  std::vector<cv::Mat> pictures(const Problem& problem) const;  ///< CV_8UC3, one per view
+  double step() const;                                          ///< mean, view steps
   std::vector<int> views_from_reference() const;                ///< the reference, then the others
+  std::vector<cv::Mat> pictures(const Problem& problem) const;  ///< picture_along, one per view
 };
 
 /// The stack around the problem's view, with no more than so many views on each side. Nothing when

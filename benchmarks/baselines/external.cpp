@@ -5,6 +5,9 @@
 #include <stdlib.h>
 
 #include <algorithm>
+#include <cctype>
+#include <cerrno>
+#include <chrono>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
@@ -125,8 +128,6 @@ void write_picture(const fs::path& path, const cv::Mat& rgb) {
 void run(const std::vector<std::string>& command, const std::string& name,
          const RunControl& control) {
   using namespace std::chrono_literals;
-  if (is_missing(command.front()))
-    throw Error(ErrorCode::kIo, name + ": the program " + command.front() + " is not installed");
   ChildProcess process(command, {});
   std::string printed;
   while (const auto part = process.read(100ms)) {
@@ -175,6 +176,10 @@ cv::Mat match(const Description& description, const Pair& pair, const RunControl
 
 Baseline external_baseline(const fs::path& path) {
   const Description description = read_description(path);
+  const std::string& program = description.command.front();
+  if (program.find('/') == std::string::npos ? is_missing(program) : !fs::exists(program))
+    throw Error(ErrorCode::kIo,
+                description.name + ": the program " + program + " is not installed");
   const Match matcher = [description](const Pair& pair, const RunControl& control) {
     return match(description, pair, control);
   };

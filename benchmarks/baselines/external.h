@@ -14,12 +14,12 @@ namespace gigaray::baselines {
 ///    "parameters": "defaults", "command": ["elas", "{left}", "{right}", "{disparity}"],
 ///    "pictures": "pgm", "disparity": "pfm", "scale": 1}
 ///
-/// The command runs without a shell in an empty folder; {left}, {right} and {disparity} become
+/// The command runs without a shell; {left}, {right} and {disparity} become
 /// names of files, {min} and {max} the whole disparities to search. What the left picture shows at
 /// u the right one shows at u − d; the map holds d / scale, not finite where there is none. Throws
-/// Error(kBadInput) naming the file and what is wrong with it. A trial throws Error(kIo) when the
-/// program is not there or fails, with the last line that it printed, Error(kBadInput) when its map
-/// has another size.
+/// Error(kBadInput) naming the file and what is wrong with it, Error(kIo) when the program is not
+/// there. A trial throws Error(kIo) when it fails, with the last line that it printed,
+/// Error(kBadInput) when its map has another size.
 Baseline external_baseline(const std::filesystem::path& description);
 
 }  // namespace gigaray::baselines

@@ -87,6 +87,7 @@ cv::Mat labelled(const Pair& pair, const RunControl& control) {
   Volume volume(std::size_t(pair.labels() - 1) * parts + 1);
   for (int part = 0; part < parts; ++part) {
     const Interval other = interval_of(shifted(pair.other, double(part) / parts));
+    control.throw_if_cancelled();
     for (std::size_t label = part; label < volume.size(); label += parts)
       volume[label] = cost_of(reference, other, pair.least + int(label) / parts);
   }
@@ -110,7 +111,9 @@ cv::Mat match(const Pair& pair, const RunControl& control) {
 
 Baseline graph_cut() {
   return {
-      "graph_cut", "Graph cuts", "Kolmogorov and Zabih 2001, Boykov et al. 2001; OpenCV's max-flow",
+      "graph_cut", "Graph cuts",
+      "after Kolmogorov and Zabih 2001, by alpha expansion (Boykov et al. 2001) without their "
+      "uniqueness term; OpenCV's max-flow",
       "alpha expansion, 2 rounds; colours compared as Birchfield and Tomasi 1998, at most 20 of "
       "255; neighbours pay 8 (2.5 where colours differ by 8 or more) per px, at most 2 px; up to "
       "80 labels, quarters, halves or whole px as they allow; both sides agree within 1 px, else "

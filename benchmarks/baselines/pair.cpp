@@ -6,56 +6,41 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "baselines/pictures.h"
+#include "baselines/view_line.h"
 
 namespace gigaray::baselines {
 namespace {
 
-/// Rows that are off by less than half a pixel count as the same.
-constexpr double kMostParallax = 0.5;
-
-struct Separation {
-  int view;
-  double steps;  ///< signed, along s
-};
-
-/// Other views in the row of the problem's view: the nearest to 1, 2, 4 … steps and the farthest,
-/// rising.
-std::vector<Separation> separations(const Problem& problem) {
-  const std::vector<View>& views = problem.light_field.views;
-  const View& reference = views[problem.view];
-  const double most = std::max({std::abs(problem.range.min), std::abs(problem.range.max), 1e-6});
-  std::vector<Separation> row;
-  for (int i = 0; i < int(views.size()); ++i)
-    if (i != problem.view && std::abs(views[i].t - reference.t) * most < kMostParallax)
-      row.push_back({i, views[i].s - reference.s});
-  // Of equally far ones that to the right.
-  std::ranges::sort(row, [](const Separation& a, const Separation& b) {
-    const double difference = std::abs(a.steps) - std::abs(b.steps);
-    return std::abs(difference) > 1e-3 ? difference < 0 : a.steps > b.steps;
+/// Other views: the nearest to 1, 2, 4 … steps and the farthest, rising; of equally far ones that
+/// with the larger s.
+std::vector<Neighbour> separations(std::vector<Neighbour> line) {
+  std::erase_if(line, [](const Neighbour& other) { return other.steps == 0; });
+  // In quarters of a step, so that positions may be a little off.
+  const auto distance = [](const Neighbour& other) {
+    return std::lround(4 * std::abs(other.steps));
+  };
+  std::ranges::sort(line, [&](const Neighbour& a, const Neighbour& b) {
+    return std::pair(distance(a), -a.steps) < std::pair(distance(b), -b.steps);
   });
-  std::vector<Separation> chosen;
-  double next = 0.5;
-  for (const Separation& other : row)
-    if (std::abs(other.steps) >= next) {
-      chosen.push_back(other);
-      next = 1.9 * std::abs(other.steps);
-    }
-  if (!row.empty()) {
-    const auto far = std::ranges::find_if(row, [&](const Separation& other) {
-      return std::abs(std::abs(other.steps) - std::abs(row.back().steps)) <= 1e-3;
-    });
-    if (chosen.empty() || std::abs(chosen.back().steps) < std::abs(far->steps) - 1e-3)
-      chosen.push_back(*far);
+  std::vector<Neighbour> chosen;
+  long next = 0;
+  for (const Neighbour& other : line) {
+    const bool is_farthest = distance(other) == distance(line.back());
+    if (distance(other) < next && !is_farthest) continue;
+    if (!chosen.empty() && distance(chosen.back()) == distance(other)) continue;
+    chosen.push_back(other);
+    next = std::lround(1.9 * double(distance(other)));
   }
   return chosen;
 }
 
-Pair pair_of(const Problem& problem, const Separation& other) {
+Pair pair_of(const Problem& problem, const Neighbour& other, Direction direction) {
   Pair pair;
-  pair.reference = picture_of(problem.light_field, problem.view);
-  pair.other = picture_of(problem.light_field, other.view);
+  pair.reference = picture_along(problem, problem.view, direction);
+  pair.other = picture_along(problem, other.view, direction);
   if (other.steps < 0) {
     cv::flip(pair.reference, pair.reference, 1);
     cv::flip(pair.other, pair.other, 1);
@@ -76,15 +61,25 @@ Pair Pair::turned() const {
 }
 
 std::vector<Trial> pair_trials(const Problem& problem, const Match& match, int most_labels) {
+  Direction direction = Direction::kRow;
+  std::vector<Neighbour> line = views_along(problem, direction);
+  if (line.size() < 2) {
+    direction = Direction::kColumn;
+    line = views_along(problem, direction);
+  }
   std::vector<Trial> trials;
-  for (const Separation& other : separations(problem)) {
+  for (const Neighbour& other : separations(line)) {
     if ((problem.range.max - problem.range.min) * std::abs(other.steps) + 3 > most_labels) continue;
-    const auto run = [problem, other, match](const RunControl& control) {
-      const Pair pair = pair_of(problem, other);
+    const auto run = [problem, other, direction, match](const RunControl& control) {
+      const Pair pair = pair_of(problem, other, direction);
       cv::Mat disparity = match(pair, control);
+      // Some look farther than they were asked to.
+      disparity.setTo(kNoEstimate, disparity < pair.least);
+      disparity.setTo(kNoEstimate, disparity > pair.most);
       fill_from_farther(disparity);
       disparity /= std::abs(other.steps);
       if (other.steps < 0) cv::flip(disparity, disparity, 1);
+      if (direction == Direction::kColumn) cv::transpose(disparity, disparity);
       return Estimate{map_of(disparity), {problem.view, other.view}};
     };
     trials.push_back({fmt::format("views {} and {}", problem.light_field.views[problem.view].name,
@@ -108,6 +103,7 @@ cv::Mat agreed(const cv::Mat& disparity, const cv::Mat& of_turned, float toleran
 }
 
 void fill_from_farther(cv::Mat& disparity) {
+  std::vector<int> empty_rows, rows;
   for (int v = 0; v < disparity.rows; ++v) {
     float* row = disparity.ptr<float>(v);
     float left = kNoEstimate;
@@ -122,6 +118,12 @@ void fill_from_farther(cv::Mat& disparity) {
       std::fill(row + u, row + end, std::fmin(left, right));
       u = end;
     }
+    (std::isfinite(row[0]) ? rows : empty_rows).push_back(v);
+  }
+  if (rows.empty()) return;
+  for (const int v : empty_rows) {
+    const auto distance = [v](int other) { return std::abs(other - v); };
+    disparity.row(*std::ranges::min_element(rows, {}, distance)).copyTo(disparity.row(v));
   }
 }
 

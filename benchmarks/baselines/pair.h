@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The Gigaray authors
 #pragma once
 
+#include <algorithm>
 #include <opencv2/core.hpp>
 #include <vector>
 
@@ -22,14 +23,16 @@ struct Pair {
 /// A method for pairs: d of the reference, CV_32F, NaN: none.
 using Match = std::function<cv::Mat(const Pair&, const RunControl&)>;
 
-/// Pairs of the problem's view with others in its row, one and two and four … view steps away and
-/// as far as there are, each matched by `match`. Larger ranges than `most_labels` are left out.
+/// Pairs of the problem's view with others in its row (without any, in its column), one and two and
+/// four … view steps away and as far as there are, each matched by `match`. What lies outside the
+/// range is dropped, holes are filled. Pairs with more than `most_labels` labels are left out.
 std::vector<Trial> pair_trials(const Problem& problem, const Match& match, int most_labels);
 
 /// NaN where the other picture's map (of Pair::turned()) differs by more than `tolerance` px.
 cv::Mat agreed(const cv::Mat& disparity, const cv::Mat& of_turned, float tolerance);
 
-/// Holes take the smaller, farther, one of the next values in their row.
+/// Holes take the smaller, farther, one of the next values in their row, empty rows the nearest
+/// other row.
 void fill_from_farther(cv::Mat& disparity);
 
 /// Where between −½ and ½ the parabola through three costs has its least value.

@@ -14,7 +14,8 @@ namespace gigaray::baselines {
 
 double photo_consistency(const LightField& light_field, int view, const FloatMap& disparity,
                          int most_views) {
-  const cv::Mat reference = picture_of(light_field, view);
+  cv::Mat shown;
+  const cv::Mat reference = picture_of(light_field, view, &shown);
   const int width = disparity.width(), height = disparity.height();
   std::vector<int> others;
   for (int i = 0; i < light_field.num_views(); ++i)
@@ -34,13 +35,17 @@ double photo_consistency(const LightField& light_field, int view, const FloatMap
             at_u.at<float>(v, u) = std::isfinite(d) ? float(u - ds * d) : -1e6f;
             at_v.at<float>(v, u) = std::isfinite(d) ? float(v - dt * d) : -1e6f;
           }
-        cv::remap(picture_of(light_field, other), moved, at_u, at_v, cv::INTER_LINEAR,
+        cv::Mat shown_there;
+        cv::remap(picture_of(light_field, other, &shown_there), moved, at_u, at_v, cv::INTER_LINEAR,
                   cv::BORDER_REPLICATE);
         gaps[k] = cv::Mat(height, width, CV_32F, cv::Scalar(kNoEstimate));
         for (int v = 0; v < height; ++v)
           for (int u = 0; u < width; ++u) {
             const float x = at_u.at<float>(v, u), y = at_v.at<float>(v, u);
             if (!(x >= 0 && y >= 0 && x <= float(width - 1) && y <= float(height - 1))) continue;
+            if (!shown.at<std::uint8_t>(v, u) ||
+                !shown_there.at<std::uint8_t>(int(std::lround(y)), int(std::lround(x))))
+              continue;
             float sum = 0;
             for (int c = 0; c < 3; ++c)
               sum += std::abs(float(moved.at<cv::Vec3b>(v, u)[c]) -

@@ -3,12 +3,17 @@
 #include "baselines/pictures.h"
 
 #include <algorithm>
+#include <optional>
 
 namespace gigaray::baselines {
 
-cv::Mat picture_of(const LightField& light_field, int view) {
+cv::Mat picture_of(const LightField& light_field, int view, cv::Mat* shown) {
   Image<std::uint16_t> picture = read_view(light_field, view);
-  take_mask(picture);
+  std::optional<Mask> mask = take_mask(picture);
+  if (shown && mask)
+    *shown = cv::Mat(picture.height(), picture.width(), CV_8U, mask->data()).clone();
+  else if (shown)
+    *shown = cv::Mat(picture.height(), picture.width(), CV_8U, cv::Scalar(1));
   const double scale = 255.0 / double((1 << light_field.pixels->bit_depth()) - 1);
   cv::Mat result;
   cv::Mat(picture.height(), picture.width(), CV_16UC3, picture.data())

@@ -8,8 +8,9 @@
 
 namespace gigaray::baselines {
 
-/// A view as CV_8UC3, RGB.
-cv::Mat picture_of(const LightField& light_field, int view);
+/// A view as CV_8UC3, RGB. shown: CV_8U, 0 where the picture shows nothing of the scene; may be
+/// null.
+cv::Mat picture_of(const LightField& light_field, int view, cv::Mat* shown = nullptr);
 
 /// CV_32F ↔ FloatMap.
 FloatMap map_of(const cv::Mat& map);

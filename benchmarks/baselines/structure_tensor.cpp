@@ -42,12 +42,12 @@ void kernels(double sigma, std::vector<float>& smooth, std::vector<float>& deriv
   for (float& weight : derivative) weight /= slope;
 }
 
-/// The stack as if all points were nearer by `shear` px per view step, CV_32FC3.
+/// The stack as if all points were farther by `shear` px per view step, CV_32FC3.
 std::vector<cv::Mat> sheared(const EpiStack& stack, const std::vector<cv::Mat>& pictures,
-                             int shear) {
+                             double shear) {
   std::vector<cv::Mat> result;
   for (int j = 0; j < stack.size(); ++j) {
-    const cv::Mat shift = (cv::Mat_<double>(2, 3) << 1, 0, -stack.steps[j] * shear, 0, 1, 0);
+    const cv::Mat shift = (cv::Mat_<double>(2, 3) << 1, 0, -stack.views[j].steps * shear, 0, 1, 0);
     cv::Mat picture, moved;
     pictures[j].convertTo(picture, CV_32F);
     cv::warpAffine(picture, moved, shift, picture.size(), cv::INTER_CUBIC | cv::WARP_INVERSE_MAP,
@@ -111,16 +111,18 @@ Slopes tensor(const std::vector<cv::Mat>& stack, int reference) {
 Slopes slopes_of(const EpiStack& stack, const Problem& problem, const RunControl& control) {
   const std::vector<cv::Mat> pictures = stack.pictures(problem);
   const DisparityRange range = problem.range;
-  const auto step = float((stack.steps.back() - stack.steps.front()) / (stack.size() - 1));
+  const double step = stack.step();
   Slopes best{cv::Mat(pictures[0].size(), CV_32F, cv::Scalar(kNoEstimate)),
               cv::Mat::zeros(pictures[0].size(), CV_32F)};
-  for (int shear = int(std::lround(range.min)); shear <= int(std::lround(range.max)); ++shear) {
+  // Whole px per view, so that slopes between them are small.
+  for (long k = std::lround(range.min * step); k <= std::lround(range.max * step); ++k) {
+    const double shear = double(k) / step;
     control.throw_if_cancelled();
     const Slopes slopes = tensor(sheared(stack, pictures, shear), stack.reference);
     for (int v = 0; v < best.disparity.rows; ++v)
       for (int u = 0; u < best.disparity.cols; ++u) {
         const float slope = slopes.disparity.at<float>(v, u);
-        const float disparity = float(shear) + slope / step;
+        const auto disparity = float(shear + slope / step);
         const float coherence = slopes.coherence.at<float>(v, u);
         if (!(std::abs(slope) <= kSteepest) || disparity < range.min || disparity > range.max ||
             coherence <= best.coherence.at<float>(v, u))

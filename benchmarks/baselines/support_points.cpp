@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <set>
 
@@ -99,7 +100,8 @@ struct Support {
   int u, v, d;
 };
 
-std::vector<Support> support_points(const Sides& sides, const Sides& turned) {
+std::vector<Support> support_points(const Sides& sides, const Sides& turned,
+                                    const RunControl& control) {
   const int width = sides.reference.width, height = sides.reference.height;
   const int most_texture = *std::ranges::max_element(sides.reference.texture);
   std::vector<std::vector<Support>> rows(height);
@@ -117,17 +119,24 @@ std::vector<Support> support_points(const Sides& sides, const Sides& turned) {
           if (back && std::abs(*back - *d) <= 1) rows[v].push_back({u, v, *d});
         }
       },
-      [](int) {});
+      [&](int) { control.throw_if_cancelled(); });
   std::vector<Support> all;
   for (const auto& row : rows) all.insert(all.end(), row.begin(), row.end());
-  // Those that no other one near by agrees with are wrong.
+  // Those that hardly another one near by agrees with are wrong.
+  constexpr int kNone = std::numeric_limits<int>::max(), kReach = 5, kSame = 2, kLeastAgree = 2;
+  cv::Mat at(height / kGrid + 1, width / kGrid + 1, CV_32S, cv::Scalar(kNone));
+  for (const Support& point : all) at.at<int>(point.v / kGrid, point.u / kGrid) = point.d;
   std::vector<Support> kept;
-  for (const Support& a : all) {
-    const auto agrees = [&](const Support& b) {
-      return (a.u != b.u || a.v != b.v) && std::abs(a.u - b.u) <= 5 * kGrid &&
-             std::abs(a.v - b.v) <= 5 * kGrid && std::abs(a.d - b.d) <= 2;
-    };
-    if (std::ranges::count_if(all, agrees) >= 2) kept.push_back(a);
+  for (const Support& point : all) {
+    const int x = point.u / kGrid, y = point.v / kGrid;
+    int agree = -1;  // itself
+    for (int row = std::max(0, y - kReach); row <= std::min(at.rows - 1, y + kReach); ++row)
+      for (int column = std::max(0, x - kReach); column <= std::min(at.cols - 1, x + kReach);
+           ++column) {
+        const int d = at.at<int>(row, column);
+        agree += d != kNone && std::abs(d - point.d) <= kSame;
+      }
+    if (agree >= kLeastAgree) kept.push_back(point);
   }
   return kept;
 }
@@ -160,11 +169,15 @@ cv::Mat planes_between(const std::vector<Support>& points, cv::Size size) {
     if (!is_whole || std::abs(cv::determinant(system)) < 1e-6) continue;
     const cv::Vec3f plane = system.inv() * values;
     const cv::Rect box = cv::boundingRect(std::vector<cv::Point>(places, places + 3));
-    const std::vector<cv::Point> outline(places, places + 3);
+    const auto side = [&](int k, int u, int v) {
+      const cv::Point &a = places[k], &b = places[(k + 1) % 3];
+      return (b.x - a.x) * (v - a.y) - (b.y - a.y) * (u - a.x);
+    };
     for (int v = box.y; v < box.y + box.height; ++v)
       for (int u = box.x; u < box.x + box.width; ++u) {
-        const bool is_in =
-            cv::pointPolygonTest(outline, cv::Point2f(float(u), float(v)), false) >= 0;
+        const int sides[] = {side(0, u, v), side(1, u, v), side(2, u, v)};
+        const auto [least, most] = std::ranges::minmax(sides);
+        const bool is_in = least >= 0 || most <= 0;
         if (is_in) planes.at<float>(v, u) = plane[0] * float(u) + plane[1] * float(v) + plane[2];
       }
   }
@@ -184,10 +197,10 @@ std::vector<std::set<int>> disparities_by_cell(const std::vector<Support>& point
   return cells;
 }
 
-cv::Mat dense(const Sides& sides, const Sides& turned) {
+cv::Mat dense(const Sides& sides, const Sides& turned, const RunControl& control) {
   const int width = sides.reference.width, height = sides.reference.height;
   cv::Mat disparity(height, width, CV_32F, cv::Scalar(kNoEstimate));
-  const std::vector<Support> points = support_points(sides, turned);
+  const std::vector<Support> points = support_points(sides, turned, control);
   if (points.size() < 3) return disparity;
   const cv::Mat planes = planes_between(points, {width, height});
   const int columns = width / kCell + 1, rows = height / kCell + 1;
@@ -221,7 +234,7 @@ cv::Mat dense(const Sides& sides, const Sides& turned) {
                 float(best) + parabola(cost(best - 1), cost(best), cost(best + 1));
         }
       },
-      [](int) {});
+      [&](int) { control.throw_if_cancelled(); });
   return disparity;
 }
 
@@ -230,9 +243,8 @@ cv::Mat match(const Pair& pair, const RunControl& control) {
   const Sides sides{described(pair.reference), described(pair.other), pair.least, pair.most};
   const Sides turned{described(other_way.reference), described(other_way.other), pair.least,
                      pair.most};
-  const cv::Mat there = dense(sides, turned);
-  control.throw_if_cancelled();
-  cv::Mat disparity = agreed(there, dense(turned, sides), 2);
+  const cv::Mat there = dense(sides, turned, control);
+  cv::Mat disparity = agreed(there, dense(turned, sides, control), 2);
   fill_from_farther(disparity);
   cv::medianBlur(disparity, disparity, 3);
   return disparity;
@@ -242,7 +254,7 @@ cv::Mat match(const Pair& pair, const RunControl& control) {
 
 Baseline support_points() {
   return {
-      "support_points", "Triangulated support points", "Geiger et al. 2010",
+      "support_points", "Triangulated support points", "after Geiger et al. 2010",
       "16 gradients per pixel; support points every 5 px, ratio of best to second best 0.85, "
       "both sides agree within 1 px; matching 0.02, prior γ 3, σ 1, 3 px around the plane; both "
       "sides agree within 2 px, holes from the farther neighbour, median of 3 × 3; parabola",

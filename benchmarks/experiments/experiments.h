@@ -21,6 +21,7 @@ struct Scene {
   LightField light_field;
   int view = 0;
   FloatMap truth;
+  DisparityRange range() const;  ///< of the truth
 };
 
 Scene synthetic_scene(const SyntheticOptions& options);
@@ -65,6 +66,7 @@ struct Setup {
 struct Experiment {
   const char *name, *question;
   void (*run)(const Setup& setup, Report& report);
+  bool takes_input = true;
 };
 
 const std::vector<Experiment>& all_experiments();

@@ -33,9 +33,12 @@ int main(int argc, char** argv) {
   Setup setup;
   int repeats = 3;
   std::string list;
-  for (const Experiment& experiment : all_experiments())
+  std::vector<std::string> names;
+  for (const Experiment& experiment : all_experiments()) {
     list += fmt::format("\n  {:<12} {}", experiment.name, experiment.question);
-  app.add_option("EXPERIMENT", name, "One of:" + list)->required();
+    names.emplace_back(experiment.name);
+  }
+  app.add_option("EXPERIMENT", name, "One of:" + list)->required()->check(CLI::IsMember(names));
   app.add_option("-o,--output", output, "Folder for results.json and the pictures")->required();
   app.add_option("--input", setup.input,
                  "A scene with truth instead of the synthetic one (figure_4, figure_5, kernels, "
@@ -50,8 +53,8 @@ int main(int argc, char** argv) {
   const auto& all = all_experiments();
   const auto chosen =
       std::ranges::find_if(all, [&](const Experiment& e) { return name == e.name; });
-  if (chosen == all.end())
-    throw Error(ErrorCode::kInvalidArgument, name + ": no such experiment; see --help");
+  if (setup.input && !chosen->takes_input)
+    throw Error(ErrorCode::kInvalidArgument, name + ": makes its own pictures; leave --input out");
 
   AtomicFolder folder(output, "gigaray experiment", "results.json");
   Report report(folder.path(), repeats);

@@ -15,18 +15,16 @@ namespace gigaray::experiments {
 namespace {
 
 /// Mean |error| over the range of the truth: the paper's normalised sum of absolute differences.
-double mean_error_of_range(const FloatMap& estimate, const FloatMap& truth) {
-  double sum = 0, least = INFINITY, most = -INFINITY;
+double mean_error_of_range(const FloatMap& estimate, const Scene& scene) {
+  double sum = 0;
   long count = 0;
-  for (std::size_t i = 0; i < truth.size(); ++i) {
-    const double t = truth.data()[i], e = estimate.data()[i];
-    if (!std::isfinite(t)) continue;
-    least = std::min(least, t), most = std::max(most, t);
-    if (!std::isfinite(e)) continue;
-    sum += std::abs(e - t);
+  for (std::size_t i = 0; i < scene.truth.size(); ++i) {
+    const double error = double(estimate.data()[i]) - double(scene.truth.data()[i]);
+    if (!std::isfinite(error)) continue;
+    sum += std::abs(error);
     ++count;
   }
-  return sum / double(count) / (most - least);
+  return sum / double(count) / (scene.range().max - scene.range().min);
 }
 
 bool is_same(const FloatMap& a, const FloatMap& b) {
@@ -35,6 +33,13 @@ bool is_same(const FloatMap& a, const FloatMap& b) {
 }
 
 }  // namespace
+
+DisparityRange Scene::range() const {
+  DisparityRange range{INFINITY, -INFINITY};
+  for (const float d : truth)
+    if (std::isfinite(d)) range = {std::min(range.min, double(d)), std::max(range.max, double(d))};
+  return range;
+}
 
 Scene synthetic_scene(const SyntheticOptions& options) {
   SyntheticLightField made = render_synthetic(options, {});
@@ -45,7 +50,8 @@ Scene synthetic_scene(const SyntheticOptions& options) {
 }
 
 Scene scene_from(const std::filesystem::path& folder) {
-  Scene scene{folder.filename().string(), open_light_field(folder), 0, {}};
+  const std::filesystem::path whole = std::filesystem::absolute(folder / "").parent_path();
+  Scene scene{whole.filename().string(), open_light_field(folder), 0, {}};
   scene.view = centre_view(scene.light_field);
   for (const char* name : {"truth.pfm", "gt_disp_lowres.pfm"})
     if (std::filesystem::exists(folder / name)) {
@@ -86,12 +92,11 @@ ViewDepth Report::run(const std::string& label, const Scene& scene, DepthOptions
        {"BadPix0.03", scores.bad_pix_003},
        {"MSEx100", scores.mse_x100},
        {"NearJumps", bad_pix(depth.disparity, scene.truth, 0.07, 15, mask_near_jumps(scene.truth))},
-       {"SAD", mean_error_of_range(depth.disparity, scene.truth)},
+       {"SAD", mean_error_of_range(depth.disparity, scene)},
        {"filled", scores.filled},
        {"seconds", seconds[seconds.size() / 2]},
        {"memory_mib", memory.memory_bytes / (1 << 20)}});
-  const auto [least, most] = std::ranges::minmax(scene.truth);
-  write(label, depth.disparity, {least, most});
+  write(label, depth.disparity, scene.range());
   return depth;
 }
 

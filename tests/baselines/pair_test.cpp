@@ -50,6 +50,14 @@ TEST(Pair, HolesTakeTheFartherNeighbour) {
   EXPECT_TRUE(std::isnan(nothing.at<float>(0)));
 }
 
+TEST(Pair, EmptyRowsTakeTheNearestOne) {
+  cv::Mat map(4, 1, CV_32F, cv::Scalar(kNoEstimate));
+  map.at<float>(1) = 2;
+  map.at<float>(3) = 7;
+  fill_from_farther(map);
+  EXPECT_EQ(values_of(map.t()), (std::vector<float>{2, 2, 2, 7}));
+}
+
 TEST(Pair, TheParabolaFindsTheBottomBetweenLabels) {
   const auto cost = [](float x) { return (x - 0.3f) * (x - 0.3f); };
   EXPECT_NEAR(parabola(cost(-1), cost(0), cost(1)), 0.3f, 1e-6);

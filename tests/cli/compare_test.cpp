@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "cli/program_test.h"
@@ -144,11 +145,46 @@ TEST_F(CompareCommand, AProgramOutsideTakesPart) {
   expect_refusal("compare made -o out --external missing.json", 1, "missing.json");
 }
 
-TEST_F(CompareCommand, RepeatsAreOfTheSameMap) {
+TEST_F(CompareCommand, AProgramOutsideIsToldWhatItIsGiven) {
+  // The last view: the other one is to its left, both are mirrored. Grey pictures, another scale.
+  make("made", "--views 3 --disparity 1 2");
+  std::ofstream(folder / "other.json")
+      << R"({"name": "other", "title": "<b>\"A&B\"</b>", "pictures": "pgm", "scale": 0.5,)"
+      << R"("command": ["sh", "-c", "head -c 2 $0 >> seen; echo $3 $4 >> seen; cp twice.pfm $2",)"
+      << R"("{left}", "{right}", "{disparity}", "{min}", "{max}"]})";
+  FloatMap map(97, 71, 1, 3.0f);  // 1.5 px per pair
+  map(0, 0) = std::numeric_limits<float>::infinity();
+  write_pfm(folder / "twice.pfm", map);
+  const auto root = compare("made -o out --methods bm --external other.json --without 2");
+  EXPECT_EQ(root["methods"][1]["views"], "views view_001 and view_000");
+  const FloatMap found = read_pfm(folder / "out/other/disparity.pfm");
+  EXPECT_EQ(found(40, 30), 1.5f);
+  EXPECT_EQ(found(0, 0), 1.5f) << "a hole";
+  EXPECT_EQ(text_of("seen"), "P50 3\nP50 3\n") << "once to check, once to time";
+  const std::string page = text_of("out/index.html");
+  EXPECT_NE(page.find("&lt;b&gt;&quot;A&amp;B&quot;"), std::string::npos);
+  EXPECT_EQ(page.find("<b>"), std::string::npos);
+}
+
+TEST_F(CompareCommand, ARepeatThatGivesAnotherMapIsNotTimed) {
+  make("made", "--views 3");
+  write_pfm(folder / "1.pfm", FloatMap(97, 71, 1, 0.5f));
+  write_pfm(folder / "2.pfm", FloatMap(97, 71, 1, 0.6f));
+  // The second map when the first has been taken.
+  std::ofstream(folder / "other.json")
+      << R"json({"name": "other", "command": ["sh", "-c", "mv 1.pfm $2 || mv 2.pfm $2",)json"
+      << R"json( "{left}", "{right}", "{disparity}"]})json";
+  const Result result = run("compare made -o out --methods bm --external other.json");
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_NE(result.err.find("other: gives another map"), std::string::npos) << result.err;
+  EXPECT_FALSE(fs::exists(folder / "out"));
+}
+
+TEST_F(CompareCommand, TruthOfAnotherViewOrSizeIsNotUsed) {
   make("made", "--views 5");
-  const auto root = compare("made -o out --methods sgbm,structure_tensor --repeats 3");
-  EXPECT_EQ(root["repeats"], 3);
-  EXPECT_GT(root["methods"][0]["seconds"], 0);
+  EXPECT_TRUE(compare("made -o out --methods bm --without 2")["truth"].is_null());
+  EXPECT_TRUE(compare("made -o out --methods bm --max-size 64")["truth"].is_null());
+  EXPECT_FALSE(compare("made -o out --methods bm --without 0")["truth"].is_null());
 }
 
 TEST_F(CompareCommand, WhatCannotBeComparedIsOneLine) {
