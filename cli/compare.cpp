@@ -188,7 +188,7 @@ void run(const Settings& settings, const RunControl& control) {
                       : contest.light_field.num_views() > 2 ? 0.2
                                                             : 1;
   const FloatMap& shape = contest.truth ? *contest.truth : contestants.front().disparity;
-  const std::vector<CloseUp> squares = close_ups(shape, 3);
+  const std::vector<CloseUp> squares = close_ups(shape, contest.range, 3);
   write_contest_pictures(folder.path(), contest, contestants, squares, facts);
   write_file_atomically(folder.path() / "compare.csv", contest_csv(contestants));
   write_file_atomically(folder.path() / "index.html",

@@ -65,9 +65,14 @@ std::vector<ScoreRow> rows_of(const std::vector<Contestant>& contestants) {
 
 }  // namespace
 
-std::vector<CloseUp> close_ups(const FloatMap& disparity, int count) {
+std::vector<CloseUp> close_ups(const FloatMap& disparity, DisparityRange range, int count) {
   const int size = std::min({96, disparity.width(), disparity.height()});
-  const Mask jumps = mask_near_jumps(disparity);
+  Mask jumps(disparity.width(), disparity.height());
+  const double jump = (range.max - range.min) / 20;
+  for (int v = 1; v < disparity.height(); ++v)
+    for (int u = 1; u < disparity.width(); ++u)
+      for (const float before : {disparity(u - 1, v), disparity(u, v - 1)})
+        jumps(u, v) |= std::abs(disparity(u, v) - before) > jump;
   std::vector<std::pair<long, CloseUp>> squares;
   const int step = std::max(1, size / 4);
   for (int v = 0; v + size <= disparity.height(); v += step)

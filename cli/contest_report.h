@@ -25,8 +25,9 @@ struct CloseUp {
   int u = 0, v = 0, size = 0;
 };
 
-/// Up to `count` squares that don't overlap, with the most pixels near jumps of the map.
-std::vector<CloseUp> close_ups(const FloatMap& disparity, int count);
+/// Up to `count` squares that don't overlap, with the most jumps of the map: neighbours that differ
+/// by a twentieth of the range.
+std::vector<CloseUp> close_ups(const FloatMap& disparity, DisparityRange range, int count);
 
 /// Writes into the folder, for the view's picture, the truth and every contestant: its map as
 /// NAME/disparity.pfm and .png, NAME/error.png where there is truth, and the close-ups.
