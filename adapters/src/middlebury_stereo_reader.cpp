@@ -53,9 +53,7 @@ class MiddleburyStereoReader : public Reader {
  public:
   std::string name() const override { return "Middlebury stereo pair"; }
 
-  ProbeResult probe(const fs::path& input) const override {
-    return {pair_in(input) ? 50 : 0, ""};
-  }
+  ProbeResult probe(const fs::path& input) const override { return {pair_in(input) ? 50 : 0, ""}; }
 
   LightField open(const fs::path& input, const OpenOptions& options) const override {
     refuse_direction(options, "a Middlebury stereo pair states");
