@@ -36,8 +36,10 @@ void run(const Settings& settings, const RunControl& control) {
   options.memory = std::size_t(settings.memory_gib * double(1 << 30));
 
   CloudFile file(settings.output);
-  const CloudReport report = build_cloud(
-      views, options, [&](const PointCloud& tile) { file.add(tile); }, control);
+  const CloudReport report = settings.input.blamed([&] {
+    return build_cloud(
+        views, options, [&](const PointCloud& tile) { file.add(tile); }, control);
+  });
   control.throw_if_cancelled();
   file.commit();
   const double seconds =

@@ -51,8 +51,8 @@ std::string contest_page(const std::filesystem::path& folder, const Contest& con
                          const std::vector<Contestant>& contestants,
                          const std::vector<CloseUp>& squares, const ContestFacts& facts);
 
-/// Where ours is behind: one sentence per score in which a baseline is better, or that there is
-/// none.
+/// One sentence per main score: which baselines are ahead of ours, or that none is. Of a pair that
+/// ours is behind in, also why. Empty without ours or without a baseline.
 std::vector<std::string> verdict(const Contest& contest,
                                  const std::vector<Contestant>& contestants);
 

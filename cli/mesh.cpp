@@ -84,11 +84,13 @@ void run(const Settings& settings, const RunControl& control) {
   PointCounts counts;
   MeshCleaned done;
   const SurfaceMesh mesh =
-      cleaned(surface_of(settings, views, counts, control), settings.cleaning, &done);
+      cleaned(settings.input.blamed([&] { return surface_of(settings, views, counts, control); }),
+              settings.cleaning, &done);
   if (mesh.faces.empty())
-    throw Error(ErrorCode::kBadInput,
-                fmt::format("no surface is left: all pieces have fewer than {} triangles",
-                            settings.cleaning.least_faces));
+    throw Error(
+        ErrorCode::kBadInput,
+        fmt::format("{}: no surface is left: all pieces have fewer triangles than --least-faces {}",
+                    settings.input.result.string(), settings.cleaning.least_faces));
   control.throw_if_cancelled();
   const MeshReport report = report_of(mesh);
   write_mesh(settings.output, mesh);

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "gigaray/error.h"
 #include "gigaray/meshing/cloud.h"
 #include "gigaray/run_control.h"
 
@@ -22,6 +23,19 @@ struct SurfaceInput {
 
   /// The chosen views with cameras in scene units. Tells when these are not known.
   DepthViews open(const RunControl& control) const;
+
+  /// work(); what it finds wrong with the depth is said of `result`.
+  template <class Work>
+  auto blamed(Work work) const {
+    try {
+      return work();
+    } catch (const Error& error) {
+      const std::string text = error.what();
+      if (error.code() != ErrorCode::kBadInput || text.find(result.string()) != std::string::npos)
+        throw;
+      throw Error(error.code(), result.string() + ": " + text);
+    }
+  }
 };
 
 /// What became of the pixels, for people and for programs.

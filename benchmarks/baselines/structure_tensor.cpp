@@ -224,9 +224,8 @@ std::vector<Trial> trials(const Problem& problem, bool with_labelling) {
 }
 
 constexpr const char* kParameters =
-    "gradients with σ 0.8, tensor with σ 1.6, 9 views of the row and, in 4D, of the column, the "
-    "more "
-    "coherent one; whole shears over the range, slopes up to 1 px per view";
+    "gradients with σ 0.8, tensor with σ 1.6, 9 views of the row and, in 4D, of the column, "
+    "the more coherent one; whole shears over the range, slopes up to 1 px per view";
 
 }  // namespace
 
