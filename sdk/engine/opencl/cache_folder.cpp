@@ -98,10 +98,8 @@ void give_pocl_a_cache() {
     if (!environment("POCL_CACHE_DIR").empty()) return true;
     const auto folder = cache_folder();
     if (folder && is_writable(*folder / kPoclFolder)) {
-      static const fs::path pocl = *folder / kPoclFolder;
-      remove_damaged_pocl_programs(pocl);
-      std::atexit([] { record_pocl_programs(pocl); });
-      setenv("POCL_CACHE_DIR", pocl.c_str(), 1);
+      static const PoclCache pocl(*folder / kPoclFolder);
+      setenv("POCL_CACHE_DIR", pocl.folder().c_str(), 1);
     } else {
       static const TemporaryFolder temporary;
       if (!temporary.path().empty()) setenv("POCL_CACHE_DIR", temporary.path().c_str(), 1);

@@ -6,17 +6,31 @@
 
 namespace gigaray::opencl {
 
-// PoCL loads the compiled kernels of its cache without looking at them: a file that was cut short
-// (a full disk, a crash of the machine) ends the program. So the sizes of all files are written
-// down at the end of a process, and what has another size at the next start is removed and compiled
-// anew.
+/// PoCL's cache in a folder, as one of the processes that use it. PoCL loads the compiled kernels
+/// of its cache without looking at them: a file that was cut short (a full disk, a crash of the
+/// machine) ends the program. So the last user writes down the sizes of all files, and the next
+/// first user removes the programs (folders) with a file that is missing or has another size; they
+/// are compiled anew. Only a process that is alone with the folder does either: PoCL aborts when a
+/// program vanishes while it compiles, and the size of a file that is being written is not one to
+/// remember. Programs without a record are left alone.
+class PoclCache {
+ public:
+  /// The folder must exist. Without a lock (a file system that has none) nothing is removed or
+  /// recorded.
+  explicit PoclCache(std::filesystem::path folder);
+  ~PoclCache();
+  PoclCache(const PoclCache&) = delete;
+  PoclCache& operator=(const PoclCache&) = delete;
 
-/// Removes the programs below `folder` (PoCL's cache) with a file that is missing or whose size is
-/// not the recorded one. Programs without a record are left alone: another process may be writing
-/// them.
-void remove_damaged_pocl_programs(const std::filesystem::path& folder);
+  const std::filesystem::path& folder() const { return folder_; }
 
-/// Records the sizes of all files below `folder`. Does nothing when that can't be written.
-void record_pocl_programs(const std::filesystem::path& folder);
+ private:
+  bool is_alone() const;
+  void remove_damaged_programs() const;
+  void record_programs() const;
+
+  std::filesystem::path folder_;
+  int lock_ = -1;  ///< descriptor of <folder>.lock, shared by all users
+};
 
 }  // namespace gigaray::opencl

@@ -58,8 +58,8 @@ struct KernelCacheInfo {
 KernelCacheInfo kernel_cache_info();
 
 /// Removes the compiled kernels; keeps the user's tuning. Programs in memory stay usable, but not
-/// a kernel of a CPU device that has never run yet: clear before building anything.
-/// Throws Error(kIo) when something can't be removed.
+/// a kernel of a CPU device that has never run yet: clear before building anything, and while no
+/// other process builds. Throws Error(kIo) when something can't be removed.
 void clear_kernel_cache();
 
 /// Compile-time parameters of one kernel on one device.
