@@ -12,11 +12,13 @@
 #include <vector>
 
 #include "baselines/external.h"
+#include "baselines/transfer.h"
 #include "command.h"
 #include "contest.h"
 #include "contest_report.h"
 #include "depth_options_cli.h"
 #include "gigaray/adapters/atomic_output.h"
+#include "gigaray/adapters/maps.h"
 #include "numbers.h"
 
 namespace gigaray::cli {
@@ -74,20 +76,41 @@ bool leaves_out_centre(const Contest& contest) {
                              [&](const View& view) { return distance(view) < own - 1e-9; });
 }
 
+/// Where the exact depth of a view of a capture is: `place` itself when it is a file, else VIEW.pfm
+/// in the folder or in its folder truth. Empty: there is none.
+fs::path find_depth(const fs::path& place, const std::string& view) {
+  if (!fs::exists(place)) throw Error(ErrorCode::kBadInput, place.string() + ": doesn't exist");
+  if (!fs::is_directory(place)) return place;
+  for (const fs::path& path : {place / (view + ".pfm"), place / "truth" / (view + ".pfm")})
+    if (fs::exists(path)) return path;
+  return {};
+}
+
+/// Of unstructured views a map of depth, else of disparity; px per view step.
+FloatMap read_truth_of(const Contest& contest) {
+  if (!contest.is_posed()) return read_truth(contest.truth_place);
+  FloatMap map = read_float_map(contest.truth_place);
+  for (float& value : map) value = value > 0 ? float(contest.unit / double(value)) : kNoEstimate;
+  return map;
+}
+
 /// The truth that was named, or the one in the folder of the input.
 void find_truth_for(Contest& contest, const Settings& settings, const RunControl& control) {
   const bool is_named = !settings.truth.empty();
   const fs::path& place = is_named ? settings.truth : settings.run.input.input;
   if (!is_named && !fs::is_directory(place)) return;
-  contest.truth_place = find_truth(place);
+  const std::string& view = contest.light_field.views[contest.view].name;
+  contest.truth_place = contest.is_posed() ? find_depth(place, view) : find_truth(place);
   if (contest.truth_place.empty()) {
     if (is_named)
-      throw Error(ErrorCode::kBadInput, place.string() + ": the folder has no true disparities");
+      throw Error(ErrorCode::kBadInput,
+                  place.string() + (contest.is_posed() ? ": has no " + view + ".pfm"
+                                                       : ": the folder has no true disparities"));
     control.message("no truth in the folder: maps are compared with each other");
     return;
   }
   const LightField& light_field = contest.light_field;
-  FloatMap truth = read_truth(contest.truth_place);
+  FloatMap truth = read_truth_of(contest);
   const bool fits = truth.width() == light_field.width && truth.height() == light_field.height;
   if (!is_named && (!fits || leaves_out_centre(contest))) {
     control.message(fmt::format("{} is of {}: maps are compared with each other",
@@ -103,6 +126,18 @@ void find_truth_for(Contest& contest, const Settings& settings, const RunControl
   contest.truth = std::move(truth);
   contest.parts = read_scene_parts(place, {}, light_field.width, light_field.height);
   if (!is_named) control.message("truth: " + contest.truth_place.string());
+}
+
+/// The range to search, px per view step, that was stated or that the input states.
+std::optional<DisparityRange> range_known(const Contest& contest,
+                                          const std::optional<DisparityRange>& stated) {
+  const LightField& light_field = contest.light_field;
+  if (!contest.is_posed()) return stated ? stated : light_field.declared_range;
+  std::optional<DisparityRange> inverse = stated;
+  if (const auto& seen = light_field.cameras[contest.view].inverse_depth; seen && !inverse)
+    inverse = DisparityRange{seen->min, seen->max};
+  if (inverse) inverse = DisparityRange{inverse->min * contest.unit, inverse->max * contest.unit};
+  return inverse;
 }
 
 void print_table(const Contest& contest, const std::vector<Contestant>& contestants) {
@@ -142,19 +177,14 @@ void run(const Settings& settings, const RunControl& control) {
   Contest contest;
   contest.repeats = settings.repeats;
   contest.light_field = settings.run.input.open_light_field();
-  if (contest.light_field.kind == LightFieldKind::kUnstructured)
-    throw Error(ErrorCode::kBadInput,
-                settings.run.input.input.string() +
-                    ": photographs from anywhere; the baselines need views in a row, see `gigaray "
-                    "rectify`");
   for (const std::string& note : contest.light_field.notes) control.message(note);
   const DepthOptions resolved = settings.run.resolve(contest.light_field, control);
   contest.view = centre_view(contest.light_field);
+  contest.unit = baselines::disparity_of_inverse_depth(contest.light_field, contest.view);
   find_truth_for(contest, settings, control);
 
   // Ours first: it finds the range to search when nothing states it.
-  std::optional<DisparityRange> range =
-      resolved.disparity ? resolved.disparity : contest.light_field.declared_range;
+  std::optional<DisparityRange> range = range_known(contest, resolved.disparity);
   std::vector<Contestant> contestants;
   for (const char* preset : {"auto", "paper"}) {
     if (!is_chosen(settings, preset)) continue;
@@ -162,8 +192,10 @@ void run(const Settings& settings, const RunControl& control) {
     if (settings.run.hypotheses != 0) options.hypotheses = settings.run.hypotheses;
     options.memory_bytes = resolved.memory_bytes;
     options.work_folder = resolved.work_folder;
-    options.disparity = range;
+    options.most_partners = resolved.most_partners;
+    options.disparity = contest.is_posed() ? resolved.disparity : range;
     contestants.push_back(run_ours(contest, options, settings.run.backend(), control));
+    if (contest.is_posed()) contest.light_field.cameras = contestants.back().cameras;
     if (!range) range = contestants.back().searched;
   }
   if (!range)
@@ -215,7 +247,8 @@ Run compare_command(CLI::App& app) {
   app.add_option(
          "--truth", settings->truth,
          "True disparity of the centre view: a map, or a folder with truth.pfm, "
-         "gt_disp_lowres.pfm or those of a Middlebury stereo pair (default: what INPUT has)")
+         "gt_disp_lowres.pfm or those of a Middlebury stereo pair; of photographs with cameras "
+         "its true depth: a map, or a folder with VIEW.pfm (default: what INPUT has)")
       ->type_name("PATH");
   app.add_option(
          "-o,--output", settings->output,

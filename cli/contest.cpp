@@ -82,16 +82,28 @@ Contestant run_ours(const Contest& contest, const DepthOptions& options,
   ours.is_ours = true;
   DepthOptions own = options;
   own.views = {contest.view};
+  LightField light_field = contest.light_field;
   const auto run = [&] {
-    Reconstruction result = reconstruct(contest.light_field, own, backend, control);
+    Reconstruction result = reconstruct(light_field, own, backend, control);
     ours.searched = {result.hypotheses().min, result.hypotheses().max};
+    ours.cameras = result.cameras();
+    if (contest.is_posed()) {
+      const InverseDepthRange& range = *ours.cameras[contest.view].inverse_depth;
+      ours.searched = {range.min * contest.unit, range.max * contest.unit};
+    }
     ours.device = result.device();
     ours.parameters =
         fmt::format("{} hypotheses; device {}", result.hypotheses().count, result.device());
-    return result.view(contest.view).disparity;
+    FloatMap disparity = result.view(contest.view).disparity;
+    for (float& d : disparity) d *= float(contest.unit);
+    return disparity;
   };
   ours.disparity = run();
-  own.disparity = ours.searched;  // The others are told it too.
+  // The range is told the next runs, as it is told the others.
+  if (contest.is_posed())
+    light_field.cameras = ours.cameras;
+  else
+    own.disparity = ours.searched;
   ours.views = fmt::format("{} views", contest.light_field.num_views());
   ours.seconds = median_seconds(contest, ours.name, ours.disparity, run);
   score(contest, ours);

@@ -17,11 +17,15 @@ namespace gigaray::cli {
 struct Contest {
   LightField light_field;
   int view = 0;
-  DisparityRange range;               ///< to search, px per view step
+  DisparityRange range;  ///< to search, px per view step
+  /// Makes what reconstruct() gives px per view step: 1; of unstructured views, whose maps are of
+  /// inverse depth, baselines::disparity_of_inverse_depth().
+  double unit = 1;
   std::optional<FloatMap> truth;      ///< of the view
   std::filesystem::path truth_place;  ///< empty: none
   SceneParts parts;
   bool is_pair() const { return light_field.num_views() == 2; }
+  bool is_posed() const { return light_field.kind == LightFieldKind::kUnstructured; }
   /// Pixels at the border that the main scores leave out: HCI's, of a pair Middlebury's.
   int border() const {
     return is_pair() ? ScoreChoice{}.middlebury_border() : ScoreChoice{}.hci_border();
@@ -42,7 +46,9 @@ struct Contestant {
   std::string name, title, reference, parameters;
   bool is_ours = false;
   std::string device;       ///< of ours
-  DisparityRange searched;  ///< by ours
+  DisparityRange searched;  ///< by ours, px per view step
+  /// Of unstructured views: the cameras with the range of inverse depths that ours searched.
+  std::vector<Camera> cameras;
   FloatMap disparity;
   std::string views;            ///< that it looked at
   double seconds = 0;           ///< median of the repeats

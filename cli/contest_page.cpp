@@ -177,6 +177,12 @@ std::string contest_page(const fs::path& folder, const Contest& contest,
       contest.repeats == 1 ? ""
                            : fmt::format(" Times are medians of {} runs, which gave the same maps.",
                                          contest.repeats));
+  if (contest.is_posed())
+    text += fmt::format(
+        "<p>Disparity is inverse depth times {:.4g}, the focal length in px times the median "
+        "distance of neighbouring cameras: what a camera so far to the side would see. Views are "
+        "turned into rectified pairs for the baselines.</p>\n",
+        contest.unit);
   text += contest.truth
               ? fmt::format(
                     "<p>Truth: {}. {} Of the choices of views that had the least BadPix 0.07 "

@@ -157,6 +157,8 @@ ordered_json contest_json(const Contest& contest, const std::vector<Contestant>&
       {"height", light_field.height},
       {"view", light_field.views[contest.view].name},
       {"disparity_range", {contest.range.min, contest.range.max}},
+      {"disparity_of_inverse_depth",
+       contest.is_posed() ? ordered_json(contest.unit) : ordered_json()},
       {"truth",
        contest.truth_place.empty() ? ordered_json() : ordered_json(contest.truth_place.string())},
       {"repeats", contest.repeats},

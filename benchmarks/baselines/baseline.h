@@ -11,14 +11,16 @@
 #include "gigaray/run_control.h"
 
 // Other methods to compare with, each from its paper, with parameters that serve all scenes. They
-// see what the method sees: the pictures of a 3D or 4D light field and the range of disparities.
+// see what the method sees: the pictures of the light field and the range of disparities.
 namespace gigaray::baselines {
 
 /// Disparity of one view is asked for.
 struct Problem {
-  LightField light_field;  ///< 3D or 4D
+  LightField light_field;
   int view = 0;
-  DisparityRange range;  ///< to search, px per view step
+  /// To search, px per view step; of unstructured views inverse depths times
+  /// disparity_of_inverse_depth().
+  DisparityRange range;
 };
 
 /// What a baseline found with some of the views.

@@ -6,52 +6,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "baselines/pictures.h"
-#include "baselines/view_line.h"
 
 namespace gigaray::baselines {
-namespace {
-
-/// Other views: the nearest to 1, 2, 4 … steps and the farthest, rising; of equally far ones that
-/// with the larger s.
-std::vector<Neighbour> separations(std::vector<Neighbour> line) {
-  std::erase_if(line, [](const Neighbour& other) { return other.steps == 0; });
-  // In quarters of a step, so that positions may be a little off.
-  const auto distance = [](const Neighbour& other) {
-    return std::lround(4 * std::abs(other.steps));
-  };
-  std::ranges::sort(line, [&](const Neighbour& a, const Neighbour& b) {
-    return std::pair(distance(a), -a.steps) < std::pair(distance(b), -b.steps);
-  });
-  std::vector<Neighbour> chosen;
-  long next = 0;
-  for (const Neighbour& other : line) {
-    const bool is_farthest = distance(other) == distance(line.back());
-    if (distance(other) < next && !is_farthest) continue;
-    if (!chosen.empty() && distance(chosen.back()) == distance(other)) continue;
-    chosen.push_back(other);
-    next = std::lround(1.9 * double(distance(other)));
-  }
-  return chosen;
-}
-
-Pair pair_of(const Problem& problem, const Neighbour& other, Direction direction) {
-  Pair pair;
-  pair.reference = picture_along(problem, problem.view, direction);
-  pair.other = picture_along(problem, other.view, direction);
-  if (other.steps < 0) {
-    cv::flip(pair.reference, pair.reference, 1);
-    cv::flip(pair.other, pair.other, 1);
-  }
-  const double steps = std::abs(other.steps);
-  pair.least = int(std::floor(problem.range.min * steps)) - 1;
-  pair.most = int(std::ceil(problem.range.max * steps)) + 1;
-  return pair;
-}
-
-}  // namespace
 
 Pair Pair::turned() const {
   Pair pair{{}, {}, least, most};
@@ -60,30 +18,34 @@ Pair Pair::turned() const {
   return pair;
 }
 
+std::vector<int> doubling(const std::vector<double>& distances) {
+  constexpr double kTwice = 1.9;  // Positions may be a little off.
+  std::vector<int> chosen;
+  for (int i = 0; i < int(distances.size()); ++i)
+    if (chosen.empty() || distances[i] >= kTwice * distances[chosen.back()] ||
+        i + 1 == int(distances.size()))
+      chosen.push_back(i);
+  return chosen;
+}
+
 std::vector<Trial> pair_trials(const Problem& problem, const Match& match, int most_labels) {
-  Direction direction = Direction::kRow;
-  std::vector<Neighbour> line = views_along(problem, direction);
-  if (line.size() < 2) {
-    direction = Direction::kColumn;
-    line = views_along(problem, direction);
-  }
+  const LightField& light_field = problem.light_field;
+  const bool is_posed = light_field.kind == LightFieldKind::kUnstructured;
   std::vector<Trial> trials;
-  for (const Neighbour& other : separations(line)) {
-    if ((problem.range.max - problem.range.min) * std::abs(other.steps) + 3 > most_labels) continue;
-    const auto run = [problem, other, direction, match](const RunControl& control) {
-      const Pair pair = pair_of(problem, other, direction);
+  for (const PairOfViews& views : is_posed ? pairs_of_cameras(problem) : pairs_in_line(problem)) {
+    if (views.labels + 3 > most_labels) continue;
+    const auto run = [views, match, reference = problem.view](const RunControl& control) {
+      const Pair pair = views.read();
       cv::Mat disparity = match(pair, control);
       // Some look farther than they were asked to.
       disparity.setTo(kNoEstimate, disparity < pair.least);
       disparity.setTo(kNoEstimate, disparity > pair.most);
+      if (!pair.shown.empty()) disparity.setTo(kNoEstimate, pair.shown == 0);
       fill_from_farther(disparity);
-      disparity /= std::abs(other.steps);
-      if (other.steps < 0) cv::flip(disparity, disparity, 1);
-      if (direction == Direction::kColumn) cv::transpose(disparity, disparity);
-      return Estimate{map_of(disparity), {problem.view, other.view}};
+      return Estimate{map_of(views.to_view(disparity)), {reference, views.other}};
     };
-    trials.push_back({fmt::format("views {} and {}", problem.light_field.views[problem.view].name,
-                                  problem.light_field.views[other.view].name),
+    trials.push_back({fmt::format("views {} and {}", light_field.views[problem.view].name,
+                                  light_field.views[views.other].name),
                       run});
   }
   return trials;

@@ -14,18 +14,41 @@ namespace gigaray::baselines {
 struct Pair {
   cv::Mat reference, other;
   int least = 0, most = 0;  ///< d to search, both included; may be negative
+  cv::Mat shown{};          ///< CV_8U, 0 where the reference shows nothing; empty: it shows all
 
   int labels() const { return most - least + 1; }
   /// The same pair with the other picture as the reference, both mirrored.
   Pair turned() const;
 };
 
+/// Two views that can be made a pair.
+struct PairOfViews {
+  int other = 0;      ///< view beside the problem's
+  double labels = 0;  ///< px that the range is long in the pair
+  std::function<Pair()> read;
+  /// d of the pair to disparity of the problem's view, px per view step, CV_32F (v, u).
+  std::function<cv::Mat(const cv::Mat&)> to_view;
+};
+
+/// Pairs of the problem's view with others in its row (without any, in its column), one and two and
+/// four … view steps away and as far as there are.
+std::vector<PairOfViews> pairs_in_line(const Problem& problem);
+
+/// Pairs of unstructured views, each rectified: turned so that the other camera is to the right,
+/// without distortion but that of the turn. As in a line the nearest one, those at least about
+/// twice as far as the last, and the farthest; of those that see a third of the reference's middle
+/// distance and don't stand before or behind it.
+std::vector<PairOfViews> pairs_of_cameras(const Problem& problem);
+
+/// Of positions in their order by distance, rising: the first, each that is at least about twice as
+/// far as the last that was chosen, and the last.
+std::vector<int> doubling(const std::vector<double>& distances);
+
 /// A method for pairs: d of the reference, CV_32F, NaN: none.
 using Match = std::function<cv::Mat(const Pair&, const RunControl&)>;
 
-/// Pairs of the problem's view with others in its row (without any, in its column), one and two and
-/// four … view steps away and as far as there are, each matched by `match`. What lies outside the
-/// range is dropped, holes are filled. Pairs with more than `most_labels` labels are left out.
+/// The pairs of the problem, each matched by `match`. What lies outside the range is dropped, holes
+/// are filled. Pairs with more than `most_labels` labels are left out.
 std::vector<Trial> pair_trials(const Problem& problem, const Match& match, int most_labels);
 
 /// NaN where the other picture's map (of Pair::turned()) differs by more than `tolerance` px.

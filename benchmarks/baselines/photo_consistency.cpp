@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "baselines/pictures.h"
+#include "baselines/transfer.h"
 #include "gigaray/parallel.h"
 
 namespace gigaray::baselines {
@@ -26,14 +27,15 @@ double photo_consistency(const LightField& light_field, int view, const FloatMap
       count,
       [&](int k) {
         const int other = others[std::size_t(k) * others.size() / count];
-        const double ds = light_field.views[other].s - light_field.views[view].s,
-                     dt = light_field.views[other].t - light_field.views[view].t;
+        const Eigen::Matrix<double, 3, 4> there = transfer(light_field, view, other);
         cv::Mat at_u(height, width, CV_32F), at_v(height, width, CV_32F), moved;
         for (int v = 0; v < height; ++v)
           for (int u = 0; u < width; ++u) {
             const double d = disparity(u, v);
-            at_u.at<float>(v, u) = std::isfinite(d) ? float(u - ds * d) : -1e6f;
-            at_v.at<float>(v, u) = std::isfinite(d) ? float(v - dt * d) : -1e6f;
+            const Eigen::Vector3d at = there * Eigen::Vector4d(u, v, 1, d);
+            const bool is_before = std::isfinite(d) && at.z() > 0;
+            at_u.at<float>(v, u) = is_before ? float(at.x() / at.z()) : -1e6f;
+            at_v.at<float>(v, u) = is_before ? float(at.y() / at.z()) : -1e6f;
           }
         cv::Mat shown_there;
         cv::remap(picture_of(light_field, other, &shown_there), moved, at_u, at_v, cv::INTER_LINEAR,

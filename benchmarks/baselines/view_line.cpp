@@ -17,6 +17,7 @@ constexpr double kLeastStep = 0.5;     ///< nearer ones are the same place
 }  // namespace
 
 std::vector<Neighbour> views_along(const Problem& problem, Direction direction) {
+  if (problem.light_field.kind == LightFieldKind::kUnstructured) return {};
   const std::vector<View>& views = problem.light_field.views;
   const bool is_row = direction == Direction::kRow;
   const View& middle = views[problem.view];

@@ -19,7 +19,7 @@ struct Neighbour {
 
 /// The problem's view itself (0 steps) and the others of its row or column, rising, one per place:
 /// the nearest of those that are off by less than a quarter of a step and by less than half a pixel
-/// across.
+/// across. None of unstructured views.
 std::vector<Neighbour> views_along(const Problem& problem, Direction direction);
 
 /// The view as CV_8UC3, of a column transposed: a point at (u, v) of the problem's view is at

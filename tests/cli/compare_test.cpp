@@ -180,6 +180,60 @@ TEST_F(CompareCommand, ARepeatThatGivesAnotherMapIsNotTimed) {
   EXPECT_FALSE(fs::exists(folder / "out"));
 }
 
+class CompareCaptures : public CompareCommand {
+ protected:
+  void SetUp() override {
+    CompareCommand::SetUp();
+    make("walk", "--path walk --extent 0.3 --views 7");
+  }
+};
+
+TEST_F(CompareCaptures, PairsOfPhotographsAreRectified) {
+  const auto root = compare("walk -o out");
+  EXPECT_EQ(root["kind"], "unstructured");
+  const std::string view = root["view"];
+  EXPECT_EQ(root["measure"], "BadPix0.07");
+  EXPECT_EQ(root["methods"].size(), 7u);
+  for (const auto& method : root["methods"]) {
+    EXPECT_LT(method["scores"]["bad1.0"], 30) << method["name"];
+    EXPECT_GT(method["scores"]["filled"], 95) << method["name"];
+  }
+  // Inverse depth is what depth gives, in another unit.
+  const double unit = root["disparity_of_inverse_depth"];
+  EXPECT_EQ(run("depth walk -o depth --views " + view).exit_code, 0);
+  const FloatMap ours = read_pfm(folder / "out/gigaray_auto/disparity.pfm"),
+                 depth = read_pfm(folder / "depth/depth.pfm");
+  for (std::size_t i = 0; i < ours.size(); ++i) {
+    ASSERT_EQ(std::isfinite(ours.data()[i]), std::isfinite(depth.data()[i]));
+    if (!std::isfinite(depth.data()[i])) continue;
+    EXPECT_NEAR(ours.data()[i] * depth.data()[i] / unit, 1, 1e-4);
+  }
+}
+
+TEST_F(CompareCaptures, TheRangeMayBeStated) {
+  const auto root = compare("walk -o out --methods sgbm --disparity 0.3 1.5");
+  const double unit = root["disparity_of_inverse_depth"];
+  EXPECT_DOUBLE_EQ(root["disparity_range"][0], 0.3 * unit);
+  EXPECT_DOUBLE_EQ(root["disparity_range"][1], 1.5 * unit);
+}
+
+TEST_F(CompareCaptures, TruthIsDepth) {
+  fs::rename(folder / "walk/truth", folder / "exact");
+  const auto root = compare("walk -o out --methods bm");
+  EXPECT_TRUE(root["truth"].is_null());
+  const std::string map = root["view"].get<std::string>() + ".pfm";
+  const double of_folder =
+      compare("walk -o out --methods bm --truth exact")["methods"][0]["scores"]["BadPix0.07"];
+  EXPECT_EQ(compare("walk -o out --methods bm --truth exact/" +
+                    map)["methods"][0]["scores"]["BadPix0.07"],
+            of_folder);
+  fs::remove_all(folder / "out");
+  fs::remove(folder / "exact" / map);
+  expect_refusal("compare walk -o out --methods bm --truth exact", 1, "exact", map);
+  expect_refusal("compare walk -o out --methods bm --truth nowhere", 1, "nowhere");
+  expect_refusal("compare walk -o out --methods edge_lines", 1, "none of the methods");
+}
+
 TEST_F(CompareCommand, TruthOfAnotherViewOrSizeIsNotUsed) {
   make("made", "--views 5");
   EXPECT_TRUE(compare("made -o out --methods bm --without 2")["truth"].is_null());
