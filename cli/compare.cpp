@@ -11,8 +11,8 @@
 #include <thread>
 #include <vector>
 
+#include "baselines/disparity_sampler.h"
 #include "baselines/external.h"
-#include "baselines/transfer.h"
 #include "command.h"
 #include "contest.h"
 #include "contest_report.h"

@@ -36,8 +36,8 @@ std::vector<PairOfViews> pairs_in_line(const Problem& problem);
 
 /// Pairs of unstructured views, each rectified: turned so that the other camera is to the right,
 /// without distortion but that of the turn. As in a line the nearest one, those at least about
-/// twice as far as the last, and the farthest; of those that see a third of the reference's middle
-/// distance and don't stand before or behind it.
+/// twice as far as the last, and the farthest; of those that UnstructuredSampler would compare the
+/// view with and that don't stand before or behind it.
 std::vector<PairOfViews> pairs_of_cameras(const Problem& problem);
 
 /// Of positions in their order by distance, rising: the first, each that is at least about twice as

@@ -9,16 +9,15 @@
 #include <optional>
 #include <utility>
 
+#include "baselines/disparity_sampler.h"
 #include "baselines/pair.h"
 #include "baselines/pictures.h"
-#include "baselines/transfer.h"
 #include "gigaray/calibration/rectifying_rotation.h"
 
 namespace gigaray::baselines {
 namespace {
 
-constexpr double kMostAhead = 0.7;  ///< sine of the angle between the way to it and sideways
-constexpr double kLeastOverlap = 1.0 / 3;
+constexpr double kMostAhead = 0.7;    ///< sine of the angle between the way to it and sideways
 constexpr double kLeastCosine = 0.3;  ///< between the pixels of the view and the rectified camera
 constexpr double kMostPixels = 4;     ///< of the rectified picture, times those of the view
 
@@ -36,17 +35,6 @@ std::array<Eigen::Vector2d, 4> corners(const Camera& camera) {
   return {{{0, 0}, {right, 0}, {0, bottom}, {right, bottom}}};
 }
 
-/// Share of the reference's pixels that the other camera sees at inverse depth w.
-double overlap(const Camera& reference, const Camera& other, double w) {
-  constexpr int kAcross = 9;
-  int seen = 0;
-  for (int j = 0; j < kAcross; ++j)
-    for (int i = 0; i < kAcross; ++i)
-      seen += other.sees(reference.back_project((i + 0.5) / kAcross * reference.width,
-                                                (j + 0.5) / kAcross * reference.height, 1 / w));
-  return double(seen) / (kAcross * kAcross);
-}
-
 /// z of the pixel's point in the rectified camera over that in its own.
 double scale_of_depth(const Camera& camera, const Camera& rectified, double u, double v) {
   const Eigen::Vector3d ray((u - camera.centre_u) / camera.focal_u,
@@ -60,9 +48,7 @@ std::optional<Rectified> rectified(const Camera& reference, const Camera& other,
   const Eigen::Vector3d way = other.position() - reference.position();
   Rectified pair;
   pair.baseline = way.norm();
-  if (!(pair.baseline > 0) ||
-      std::abs(way.dot(reference.direction())) > kMostAhead * pair.baseline ||
-      overlap(reference, other, (inverse.min + inverse.max) / 2) < kLeastOverlap)
+  if (!(pair.baseline > 0) || std::abs(way.dot(reference.direction())) > kMostAhead * pair.baseline)
     return {};
   Eigen::Matrix3d rotation = rectifying_rotation(reference.rotation, way);
   if (rotation.row(0) * way < 0) rotation.topRows<2>() *= -1;
@@ -146,8 +132,11 @@ std::vector<PairOfViews> pairs_of_cameras(const Problem& problem) {
   const double unit = disparity_of_inverse_depth(problem.light_field, problem.view);
   const InverseDepthRange inverse{std::max(0.0, problem.range.min / unit),
                                   problem.range.max / unit};
+  std::vector<Camera> ranged = cameras;
+  for (Camera& camera : ranged) camera.inverse_depth = inverse;
+  const UnstructuredSampler sampler(ranged, problem.light_field.most_partners);
   std::vector<std::pair<int, Rectified>> possible;
-  for (int other = 0; other < int(cameras.size()); ++other) {
+  for (const int other : sampler.partners(problem.view)) {
     if (other == problem.view) continue;
     if (auto views = rectified(cameras[problem.view], cameras[other], inverse))
       possible.emplace_back(other, *views);

@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
+#include <optional>
+#include <variant>
 #include <vector>
 
+#include "baselines/disparity_sampler.h"
 #include "baselines/pictures.h"
-#include "baselines/transfer.h"
 #include "gigaray/parallel.h"
 
 namespace gigaray::baselines {
@@ -22,20 +24,23 @@ double photo_consistency(const LightField& light_field, int view, const FloatMap
   for (int i = 0; i < light_field.num_views(); ++i)
     if (i != view) others.push_back(i);
   const int count = std::min(most_views, int(others.size()));
+  const AnySampler any = disparity_sampler(light_field, view);
+  const auto locate = [&](int other, const Ray& ray) {
+    return std::visit([&](const auto& sampler) { return sampler.locate(view, other, ray); }, any);
+  };
   std::vector<cv::Mat> gaps(count);
   parallel_for(
       count,
       [&](int k) {
         const int other = others[std::size_t(k) * others.size() / count];
-        const Eigen::Matrix<double, 3, 4> there = transfer(light_field, view, other);
         cv::Mat at_u(height, width, CV_32F), at_v(height, width, CV_32F), moved;
         for (int v = 0; v < height; ++v)
           for (int u = 0; u < width; ++u) {
             const double d = disparity(u, v);
-            const Eigen::Vector3d at = there * Eigen::Vector4d(u, v, 1, d);
-            const bool is_before = std::isfinite(d) && at.z() > 0;
-            at_u.at<float>(v, u) = is_before ? float(at.x() / at.z()) : -1e6f;
-            at_v.at<float>(v, u) = is_before ? float(at.y() / at.z()) : -1e6f;
+            const auto at =
+                std::isfinite(d) ? locate(other, {double(u), double(v), d}) : std::optional<Ray>();
+            at_u.at<float>(v, u) = at ? float(at->u) : -1e6f;
+            at_v.at<float>(v, u) = at ? float(at->v) : -1e6f;
           }
         cv::Mat shown_there;
         cv::remap(picture_of(light_field, other, &shown_there), moved, at_u, at_v, cv::INTER_LINEAR,

@@ -9,9 +9,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "baselines/disparity_sampler.h"
 #include "baselines/pair.h"
 #include "baselines/photo_consistency.h"
-#include "baselines/transfer.h"
 #include "gigaray/synthetic_capture.h"
 
 namespace gigaray::baselines {
@@ -117,35 +117,39 @@ TEST_P(PosedViews, PhotoConsistencyIsLeastAtTheTruth) {
   EXPECT_GT(photo_consistency(problem.light_field, problem.view, map), 2 * right);
 }
 
-// Whichever way the other camera is, a step of a pixel in the pair is one along the rows of both.
-TEST(PairsOfCameras, RectifiedRowsAreEpipolarLines) {
+// What has one disparity in a pair is a plane along the way between the cameras; from one to the
+// next focal * baseline / distance changes by a pixel, whichever way the other camera is.
+TEST(PairsOfCameras, ADisparityIsAPlaneAlongTheBaseline) {
   for (const double degrees : {0.0, 90.0, 180.0, 213.0}) {
     const Capture scene = turned(capture(Shape::kWalk, 9), degrees);
     const Problem& problem = scene.problem;
+    const Camera& camera = problem.light_field.cameras[problem.view];
+    const double unit = disparity_of_inverse_depth(problem.light_field, problem.view);
     const std::vector<PairOfViews> pairs = pairs_of_cameras(problem);
     ASSERT_GE(pairs.size(), 2u);
     for (const PairOfViews& views : pairs) {
       const Pair pair = views.read();
       EXPECT_EQ(pair.reference.size(), pair.other.size());
-      EXPECT_GE(pair.least, -2);
-      // One depth along the rectified axis for each disparity of the pair: a plane of the scene,
-      // whose places in the other view a homography gives.
-      const cv::Mat near = views.to_view(
-                        cv::Mat(pair.reference.size(), CV_32F, cv::Scalar(pair.most))),
-                    far = views.to_view(
-                        cv::Mat(pair.reference.size(), CV_32F, cv::Scalar(pair.least + 2)));
-      const auto transfer_to_other = transfer(problem.light_field, problem.view, views.other);
-      const auto place = [&](int u, int v, const cv::Mat& map) -> Eigen::Vector2d {
-        return (transfer_to_other * Eigen::Vector4d(u, v, 1, map.at<float>(v, u))).hnormalized();
+      const Eigen::Vector3d way =
+          problem.light_field.cameras[views.other].position() - camera.position();
+      const auto parallax_of = [&](double disparity) {
+        const cv::Mat map =
+            views.to_view(cv::Mat(pair.reference.size(), CV_32F, cv::Scalar(disparity)));
+        const auto point = [&](int u, int v) {
+          return camera.back_project(u, v, unit / map.at<float>(v, u));
+        };
+        const Eigen::Vector3d origin = point(3, 5);
+        const Eigen::Vector3d normal =
+            (point(140, 20) - origin).cross(point(75, 100) - origin).normalized();
+        EXPECT_NEAR(normal.dot(way.normalized()), 0, 1e-4);
+        const double distance = std::abs(normal.dot(origin - camera.position()));
+        EXPECT_NEAR(normal.dot(point(120, 90) - origin), 0, 1e-4 * distance);
+        return camera.focal_u * way.norm() / distance;
       };
-      // All pixels move towards one point: the picture of the problem's camera.
-      const Eigen::Vector2d epipole = transfer_to_other.col(3).hnormalized();
-      for (const auto& [u, v] : {std::pair(3, 5), {140, 20}, {75, 100}}) {
-        EXPECT_GT(near.at<float>(v, u), far.at<float>(v, u));
-        const Eigen::Vector2d a = place(u, v, near), b = place(u, v, far);
-        const Eigen::Vector2d along = (a - b).normalized(), to = (epipole - b).normalized();
-        EXPECT_NEAR(std::abs(along.dot(to)), 1, 1e-4);
-      }
+      EXPECT_NEAR(parallax_of(pair.most) - parallax_of(pair.least + 2), pair.most - pair.least - 2,
+                  0.01);
+      // The range that is searched is that of the problem.
+      EXPECT_LT(parallax_of(pair.least), camera.focal_u * way.norm() * problem.range.min / unit);
     }
   }
 }

@@ -2,9 +2,8 @@
 // Copyright (c) 2026 The Gigaray authors
 #pragma once
 
-#include <Eigen/Core>
-
 #include "gigaray/light_field.h"
+#include "gigaray/samplers/any_sampler.h"
 
 namespace gigaray::baselines {
 
@@ -14,8 +13,8 @@ namespace gigaray::baselines {
 /// on grids. 1 of 3D and 4D light fields.
 double disparity_of_inverse_depth(const LightField& light_field, int view);
 
-/// T of (U, V, Z) = T (u, v, 1, d): what `view` sees at (u, v) with disparity d, px per view step,
-/// `other` sees at (U / Z, V / Z) if Z > 0 (equations 3, 9 and 10 of Kim et al. 2013).
-Eigen::Matrix<double, 3, 4> transfer(const LightField& light_field, int view, int other);
+/// The sampler of the light field with the disparity of `view`, px per view step, as its
+/// hypothesis, whatever the kind: locate(view, other, {u, v, d}).
+AnySampler disparity_sampler(const LightField& light_field, int view);
 
 }  // namespace gigaray::baselines
