@@ -2,14 +2,12 @@
 // Copyright (c) 2026 The Gigaray authors
 #include "memory_plan.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <thread>
 
+#include "gigaray/memory_limit.h"
 #include "gigaray/samplers/any_sampler.h"
 #include "search_bounds.h"
 
@@ -24,14 +22,6 @@ constexpr double kLargestBuffer = 1800 * kMiB;
 constexpr int kSmallestLevel = 10;  // px
 /// Most for the scores of a strip, where its least number of rows takes less.
 constexpr double kLargestVolume = 1024 * kMiB;
-
-double free_memory() {
-  std::ifstream info("/proc/meminfo");
-  std::string key, unit;
-  for (double kib; info >> key >> kib >> unit;)
-    if (key == "MemAvailable:") return kib * 1024;
-  return double(sysconf(_SC_PHYS_PAGES)) * double(sysconf(_SC_PAGESIZE)) / 2;
-}
 
 struct LevelCost {
   double stores = 0;      // bytes of everything that is kept of the level
@@ -242,7 +232,7 @@ std::vector<LevelShape> level_shapes(int width, int height, bool fine_to_coarse)
 
 MemoryPlan plan_memory(const LightField& light_field, const DepthOptions& options,
                        const HypothesisRange& hypotheses) {
-  const double limit = options.memory_bytes > 0 ? options.memory_bytes : 0.75 * free_memory();
+  const double limit = options.memory_bytes > 0 ? options.memory_bytes : default_memory_limit();
   const Planner planner(light_field, options, hypotheses);
   const double usual = planner.usual_volume(limit);
 
