@@ -9,7 +9,9 @@
 
 #include "command.h"
 #include "gigaray/adapters/cloud_file.h"
+#include "gigaray/adapters/path_text.h"
 #include "numbers.h"
+#include "output_option.h"
 #include "surface_input.h"
 
 namespace gigaray::cli {
@@ -21,34 +23,30 @@ struct Settings {
   SurfaceInput input;
   CloudOptions cloud;
   double memory_gib = 2;
-  std::filesystem::path output;
+  OutputOption output;
   bool json = false;
 };
 
 void run(const Settings& settings, const RunControl& control) {
-  if (settings.output.extension() != ".ply")
-    throw Error(ErrorCode::kInvalidArgument,
-                settings.output.string() + ": a cloud is written as .ply");
+  CloudFile file(AtomicFile(settings.output.path, settings.input.rules(settings.output), {".ply"}));
   const auto begin = std::chrono::steady_clock::now();
   const DepthViews views = settings.input.open(control);
   CloudOptions options = settings.cloud;
   options.points = settings.input.points;
   options.memory = std::size_t(settings.memory_gib * double(1 << 30));
 
-  CloudFile file(settings.output);
   const CloudReport report = settings.input.blamed([&] {
     return build_cloud(
         views, options, [&](const PointCloud& tile) { file.add(tile); }, control);
   });
-  control.throw_if_cancelled();
-  file.commit();
+  file.commit(control);
   const double seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 
   if (settings.json) {
     const ordered_json root{{"format", "gigaray cloud"},
                             {"version", 1},
-                            {"file", settings.output.string()},
+                            {"file", path_text(settings.output.path)},
                             {"filters", as_json(report.pixels)},
                             {"voxel", report.voxel},
                             {"merged", report.merged},
@@ -64,7 +62,7 @@ void run(const Settings& settings, const RunControl& control) {
   fmt::print("merged        {} points into {}, one per cube of {}{:.4g}\n", report.pixels.points,
              report.merged, settings.cloud.voxel > 0 ? "" : "pixel size, usually ", report.voxel);
   fmt::print("outliers      {} that stand alone\n", report.outliers);
-  fmt::print("{}: {} points in {:.1f} s\n", settings.output.string(), report.points, seconds);
+  fmt::print("{}: {} points in {:.1f} s\n", settings.output.path.string(), report.points, seconds);
 }
 
 }  // namespace
@@ -73,7 +71,7 @@ Run cloud_command(CLI::App& app) {
   app.description("One coloured, oriented point cloud of all views");
   const auto settings = std::make_shared<Settings>();
   settings->input.declare(app);
-  app.add_option("-o,--output", settings->output, "scene.ply")->type_name("FILE")->required();
+  settings->output.add_to(app, "scene.ply", "FILE")->required();
   app.add_option("--voxel", settings->cloud.voxel,
                  "Points in a cube of this size become one, scene units (default: the distance of "
                  "neighbouring pixels there, in steps of two)")

@@ -20,6 +20,7 @@
 #include "gigaray/adapters/atomic_output.h"
 #include "gigaray/adapters/maps.h"
 #include "numbers.h"
+#include "output_option.h"
 
 namespace gigaray::cli {
 namespace {
@@ -30,7 +31,8 @@ constexpr const char* kCompareFormat = "gigaray compare";
 
 struct Settings {
   DepthRunOptions run;
-  fs::path truth, output;
+  fs::path truth;
+  OutputOption output;
   std::vector<std::string> methods;  ///< empty: all
   std::vector<fs::path> externals;   ///< descriptions of programs
   int repeats = 1;
@@ -172,7 +174,11 @@ std::string machine() {
 }
 
 void run(const Settings& settings, const RunControl& control) {
-  AtomicFolder folder(settings.output, kCompareFormat, "compare.json");
+  std::vector<fs::path> inputs = settings.run.input.places();
+  inputs.push_back(settings.truth);
+  inputs.insert(inputs.end(), settings.externals.begin(), settings.externals.end());
+  AtomicFolder folder(settings.output.path, kCompareFormat,
+                      settings.output.rules(std::move(inputs)));
   const std::vector<baselines::Baseline> others = chosen_baselines(settings);
   Contest contest;
   contest.repeats = settings.repeats;
@@ -228,14 +234,14 @@ void run(const Settings& settings, const RunControl& control) {
   const std::string json = contest_json(contest, contestants, facts)
                                .dump(2, ' ', false, nlohmann::json::error_handler_t::replace);
   write_file_atomically(folder.path() / "compare.json", json + "\n");
-  folder.commit();
+  folder.commit(control);
   if (settings.json) {
     fmt::print("{}\n", json);
     return;
   }
   print_table(contest, contestants);
   for (const std::string& sentence : verdict(contest, contestants)) fmt::print("{}\n", sentence);
-  fmt::print("{}: the page\n", (settings.output / "index.html").string());
+  fmt::print("{}: the page\n", (settings.output.path / "index.html").string());
 }
 
 }  // namespace
@@ -250,11 +256,7 @@ Run compare_command(CLI::App& app) {
          "gt_disp_lowres.pfm or those of a Middlebury stereo pair; of photographs with cameras "
          "its true depth: a map, or a folder with VIEW.pfm (default: what INPUT has)")
       ->type_name("PATH");
-  app.add_option(
-         "-o,--output", settings->output,
-         "Folder for compare.json, compare.csv, index.html and the pictures; replaced if it "
-         "is an older comparison")
-      ->type_name("DIR")
+  settings->output.add_to(app, "Folder for compare.json, compare.csv, index.html and the pictures")
       ->required();
   app.add_option(
          "--methods", settings->methods,

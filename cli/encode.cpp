@@ -13,6 +13,7 @@
 #include "gigaray/adapters/sparse_file.h"
 #include "gigaray/reconstruct.h"
 #include "numbers.h"
+#include "output_option.h"
 
 namespace gigaray::cli {
 namespace {
@@ -22,7 +23,7 @@ using nlohmann::ordered_json;
 struct Settings {
   DepthRunOptions run;
   SparseFileOptions file;
-  std::filesystem::path output;
+  OutputOption output;
   std::filesystem::path depth;  ///< what `gigaray depth` wrote; empty: compute it
   bool json = false;
 };
@@ -98,6 +99,9 @@ void run(const Settings& settings, const RunControl& control) {
   const auto seconds_since = [](Clock::time_point begin) {
     return std::chrono::duration<double>(Clock::now() - begin).count();
   };
+  std::vector<std::filesystem::path> inputs = settings.run.input.places();
+  inputs.push_back(settings.depth);
+  AtomicFile file(settings.output.path, settings.output.rules(std::move(inputs)), {".grl"});
   LightField light_field = settings.run.input.open_light_field();
   for (const std::string& note : light_field.notes) control.message(note);
   if (light_field.kind == LightFieldKind::kUnstructured)
@@ -112,7 +116,7 @@ void run(const Settings& settings, const RunControl& control) {
   const double depth_seconds = seconds_since(begin);
   const auto encode_begin = Clock::now();
   const SparseFileReport report =
-      write_sparse_file(settings.output, light_field, disparity, settings.file, control);
+      write_sparse_file(std::move(file), light_field, disparity, settings.file, control);
   const double encode_seconds = seconds_since(encode_begin);
   if (settings.json)
     fmt::print("{}\n",
@@ -127,10 +131,7 @@ Run encode_command(CLI::App& app) {
   app.description("Light field to one compact file, lossless");
   auto settings = std::make_shared<Settings>();
   settings->run.add_to(app);
-  app.add_option("-o,--output", settings->output,
-                 "File for the result, .grl; replaced if it is there")
-      ->type_name("FILE.grl")
-      ->required();
+  settings->output.add_to(app, "File for the result", "FILE.grl")->required();
   app.add_option("--depth", settings->depth,
                  "What `gigaray depth INPUT` wrote, all views (default: computed now)")
       ->type_name("DIR");

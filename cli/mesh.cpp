@@ -7,11 +7,13 @@
 
 #include "command.h"
 #include "gigaray/adapters/mesh_file.h"
+#include "gigaray/adapters/path_text.h"
 #include "gigaray/meshing/cloud_mesh.h"
 #include "gigaray/meshing/grid_mesh.h"
 #include "gigaray/meshing/mesh_processing.h"
 #include "gigaray/meshing/mesh_report.h"
 #include "numbers.h"
+#include "output_option.h"
 #include "surface_input.h"
 
 namespace gigaray::cli {
@@ -21,7 +23,7 @@ using nlohmann::ordered_json;
 
 struct Settings {
   SurfaceInput input;
-  std::filesystem::path output;
+  OutputOption output;
   std::string method = "grid";
   double voxel = 0;
   std::size_t most_points = 300'000;
@@ -78,7 +80,8 @@ void print_report(const MeshReport& report) {
 }
 
 void run(const Settings& settings, const RunControl& control) {
-  check_mesh_name(settings.output);
+  AtomicFile file(settings.output.path, settings.input.rules(settings.output),
+                  {".ply", ".obj", ".glb", ".stl"});
   const auto begin = std::chrono::steady_clock::now();
   const DepthViews views = settings.input.open(control);
   PointCounts counts;
@@ -93,14 +96,15 @@ void run(const Settings& settings, const RunControl& control) {
                     settings.input.result.string(), settings.cleaning.least_faces));
   control.throw_if_cancelled();
   const MeshReport report = report_of(mesh);
-  write_mesh(settings.output, mesh);
+  write_mesh(file, settings.output.path, mesh);
+  file.commit(control);
   const double seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 
   if (settings.json) {
     const ordered_json root{{"format", "gigaray mesh"},
                             {"version", 1},
-                            {"file", settings.output.string()},
+                            {"file", path_text(settings.output.path)},
                             {"method", settings.method},
                             {"filters", as_json(counts)},
                             {"pieces_dropped", done.pieces_dropped},
@@ -116,7 +120,7 @@ void run(const Settings& settings, const RunControl& control) {
                settings.cleaning.least_faces);
   if (settings.cleaning.hole_edges > 0) fmt::print("holes         {} filled\n", done.holes_filled);
   print_report(report);
-  fmt::print("{}: {} in {:.1f} s\n", settings.output.string(), settings.method, seconds);
+  fmt::print("{}: {} in {:.1f} s\n", settings.output.path.string(), settings.method, seconds);
 }
 
 }  // namespace
@@ -125,9 +129,7 @@ Run mesh_command(CLI::App& app) {
   app.description("A surface of triangles, coloured, with a report of its shape");
   const auto settings = std::make_shared<Settings>();
   settings->input.declare(app);
-  app.add_option("-o,--output", settings->output, "scene.ply, .obj, .glb or .stl")
-      ->type_name("FILE")
-      ->required();
+  settings->output.add_to(app, "scene.ply, .obj, .glb or .stl", "FILE")->required();
   app.add_option("--method", settings->method,
                  "grid: depth maps triangulated on their pixels, cut where depth jumps; poisson: "
                  "smooth, closes gaps; front: triangles between the points of the cloud")

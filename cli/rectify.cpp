@@ -18,6 +18,7 @@
 #include "gigaray/adapters/photographs.h"
 #include "gigaray/adapters/pictures.h"
 #include "gigaray/adapters/rail_rectification.h"
+#include "output_option.h"
 #include "photographs.h"
 
 namespace gigaray::cli {
@@ -27,7 +28,8 @@ namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
 struct RectifyOptions {
-  fs::path input, out;
+  fs::path input;
+  OutputOption out;
   std::optional<double> focal_px;
   std::vector<std::string> lens;  ///< model, then parameters
   std::string rotations = "best";
@@ -222,7 +224,7 @@ void print_text(const fs::path& out, const RectifiedRail& rail, const LightField
 void rectify(const RectifyOptions& options, const RunControl& control) {
   if (options.step_mm && !(*options.step_mm > 0))
     throw Error(ErrorCode::kInvalidArgument, "--rail-step must be more than 0 mm");
-  AtomicFolder out(options.out, kLightFieldFormat);
+  AtomicFolder out(options.out.path, kLightFieldFormat, options.out.rules({options.input}));
   const bool is_workspace = has_colmap_model(options.input);
   const fs::path images = options.input / "images";
   const fs::path photographs =
@@ -245,12 +247,11 @@ void rectify(const RectifyOptions& options, const RunControl& control) {
   const fs::path description = out.path() / "gigaray.json";
   write_light_field_json(description, light_field, files);
   add_report(description, report);
-  control.throw_if_cancelled();
-  out.commit();
+  out.commit(control);
   if (options.json)
     fmt::print("{}\n", report.dump(2));
   else
-    print_text(options.out, rail, light_field, vertical_after);
+    print_text(options.out.path, rail, light_field, vertical_after);
 }
 
 }  // namespace
@@ -261,7 +262,7 @@ Run rectify_command(CLI::App& app) {
   app.add_option("INPUT", options->input,
                  "Folder of photographs, numbered along the rail, or a COLMAP workspace")
       ->required();
-  app.add_option("-o,--output", options->out, "Folder to write")->required();
+  options->out.add_to(app, "Folder for the light field")->required();
   auto* focal = app.add_option("--focal", options->focal_px,
                                "Focal length, px; without it that of the EXIF data");
   app.add_option("--lens", options->lens,

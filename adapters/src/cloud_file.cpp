@@ -3,6 +3,7 @@
 #include "gigaray/adapters/cloud_file.h"
 
 #include <string>
+#include <utility>
 
 #include "ply.h"
 
@@ -16,7 +17,7 @@ std::string header(std::uint64_t points) {
 
 }  // namespace
 
-CloudFile::CloudFile(const std::filesystem::path& path) : file_(path) { file_.write(header(0)); }
+CloudFile::CloudFile(AtomicFile file) : file_(std::move(file)) { file_.write(header(0)); }
 
 void CloudFile::add(const PointCloud& cloud) {
   std::string bytes;
@@ -32,9 +33,9 @@ void CloudFile::add(const PointCloud& cloud) {
   file_.write(bytes);
 }
 
-void CloudFile::commit() {
+void CloudFile::commit(const RunControl& control) {
   file_.write_at_begin(header(points_));
-  file_.commit();
+  file_.commit(control);
 }
 
 }  // namespace gigaray

@@ -278,7 +278,7 @@ ColmapRun run_colmap(const fs::path& photographs, const fs::path& work,
                 "of photographs");
   prepare(work);
   ColmapRun result;
-  result.log = work / "colmap.log";
+  result.log = work / kColmapLog;
   result.num_pictures = int(names.size());
   Program program(result.log, control);
   find_features(program, photographs, work, names, options);

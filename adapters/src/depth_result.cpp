@@ -10,6 +10,7 @@
 #include "described_light_field.h"
 #include "gigaray/adapters/depth_folder.h"
 #include "gigaray/adapters/maps.h"
+#include "gigaray/adapters/path_text.h"
 #include "gigaray/adapters/reader.h"
 #include "gigaray/adapters/shrunk.h"
 #include "picture_files.h"
@@ -117,7 +118,7 @@ DepthResult::DepthResult(const fs::path& folder) : folder_(folder) {
                 path.string() + ": describes no result of `gigaray depth`; give its output folder");
   try {
     light_field_ = parse(root);
-    input_ = root.at("input").get<std::string>();
+    input_ = path_of_text(root.at("input").get<std::string>());
     const json& range = root.at("options").at("disparity_range");
     searched_ = {range.at(0), range.at(1)};
   } catch (const json::exception& problem) {

@@ -83,20 +83,24 @@ aiScene scene_of(const SurfaceMesh& surface, bool turned) {
 
 }  // namespace
 
-void check_mesh_name(const std::filesystem::path& path) { format_of(path); }
-
-void write_mesh(const std::filesystem::path& path, const SurfaceMesh& mesh) {
+void write_mesh(AtomicFile& file, const std::filesystem::path& path, const SurfaceMesh& mesh) {
   const Format& format = format_of(path);
   if (mesh.faces.empty())
     throw Error(ErrorCode::kInvalidArgument, path.string() + ": the surface has no triangle");
   GIGARAY_CHECK(mesh.normals.size() == mesh.positions.size() &&
                 mesh.colours.size() == mesh.positions.size());
-  if (path.extension() == ".ply") return write_file_atomically(path, ply_of(mesh));
+  if (path.extension() == ".ply") return file.write(ply_of(mesh));
   const aiScene scene = scene_of(mesh, path.extension() == ".glb");
   Assimp::Exporter exporter;
   const aiExportDataBlob* blob = exporter.ExportToBlob(&scene, format.assimp_id);
   if (!blob) throw Error(ErrorCode::kIo, path.string() + ": " + exporter.GetErrorString());
-  write_file_atomically(path, {static_cast<const char*>(blob->data), blob->size});
+  file.write({static_cast<const char*>(blob->data), blob->size});
+}
+
+void write_mesh(const std::filesystem::path& path, const SurfaceMesh& mesh) {
+  AtomicFile file(path);
+  write_mesh(file, path, mesh);
+  file.commit();
 }
 
 }  // namespace gigaray

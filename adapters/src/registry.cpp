@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The Gigaray authors
 #include "gigaray/adapters/registry.h"
 
+#include "gigaray/adapters/path_text.h"
 #include "gigaray/adapters/photographs.h"
 
 #include <algorithm>
@@ -92,6 +93,8 @@ LightField open_light_field(const fs::path& input, const OpenOptions& options) {
   const Reader& reader = reader_for(input, options);
   LightField light_field = reader.open(input, options);
   light_field.format = reader.name();
+  for (std::vector<View>* views : {&light_field.views, &light_field.left_out})
+    for (View& view : *views) view.name = view_name_of(view.name);
   if (light_field.kind != LightFieldKind::kUnstructured)
     for (const auto& [option, folder] :
          {std::pair("--images", options.images), std::pair("--masks", options.masks)})

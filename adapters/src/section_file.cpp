@@ -42,7 +42,7 @@ std::uint64_t checksum_of(const Head& head) {
 
 }  // namespace
 
-SectionWriter::SectionWriter(const std::filesystem::path& path) : file_(path), size_(sizeof(Head)) {
+SectionWriter::SectionWriter(AtomicFile file) : file_(std::move(file)), size_(sizeof(Head)) {
   file_.write(bytes_of(Head{}));
 }
 
@@ -53,13 +53,13 @@ Section SectionWriter::add(std::string_view bytes) {
   return section;
 }
 
-std::uint64_t SectionWriter::finish(std::string_view directory) {
+std::uint64_t SectionWriter::finish(std::string_view directory, const RunControl& control) {
   Head head;
   head.directory = add(directory);
   head.file_size = size_;
   head.checksum = checksum_of(head);
   file_.write_at_begin(bytes_of(head));
-  file_.commit();
+  file_.commit(control);
   return size_;
 }
 

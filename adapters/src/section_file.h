@@ -25,10 +25,10 @@ struct Section {
 
 class SectionWriter {
  public:
-  explicit SectionWriter(const std::filesystem::path& path);
+  explicit SectionWriter(AtomicFile file);
   Section add(std::string_view bytes);
   /// Adds the directory and puts the file in its place. Returns its size.
-  std::uint64_t finish(std::string_view directory);
+  std::uint64_t finish(std::string_view directory, const RunControl& control);
 
  private:
   AtomicFile file_;

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <string>
 
 #include "gigaray/image.h"
 
@@ -13,6 +14,9 @@ namespace gigaray {
 /// 0 … 2^bit_depth − 1; bit_depth 8 or 16. Throws Error(kIo) when the place can't be written.
 void write_png(const std::filesystem::path& path, const Image<std::uint16_t>& picture,
                int bit_depth);
+
+/// The same as bytes of a file.
+std::string png_bytes(const Image<std::uint16_t>& picture, int bit_depth);
 
 /// Reads any picture that a light field may be made of: RGB (v, u, c); grey is repeated, alpha is
 /// dropped, the orientation of the camera is applied. bit_depth, if given, becomes 8 or 16.
