@@ -309,13 +309,15 @@ TEST_F(AtomicOutput, AFileThatIsReadIsRefused) {
   make_file("a.grl", "x");
   fs::create_symlink("a.grl", folder / "link.grl");
   for (const std::string name : {"a.grl", "link.grl"})
-    expect_error(ErrorCode::kInvalidArgument, "is what is read too",
-                 [&] { make_file(name, "y", {{folder / "a.grl"}, true}); });
+    expect_error(ErrorCode::kInvalidArgument, "is what is read too", [&] {
+      make_file(name, "y", {{folder / "a.grl"}, true});
+    });
 }
 
 TEST_F(AtomicOutput, TheNameOfAFileEndsInOneOfItsFormats) {
-  expect_error(ErrorCode::kInvalidArgument, ".ply, .obj",
-               [&] { AtomicFile(folder / "picture.png", {}, {".ply", ".obj"}); });
+  expect_error(ErrorCode::kInvalidArgument, ".ply, .obj", [&] {
+    AtomicFile(folder / "picture.png", {}, {".ply", ".obj"});
+  });
   AtomicFile(folder / "UPPER.PLY", {}, {".ply"}).commit();
   EXPECT_EQ(names(), std::set<std::string>{"UPPER.PLY"});
 }
