@@ -9,6 +9,7 @@
 
 #include "described_light_field.h"
 #include "gigaray/adapters/depth_folder.h"
+#include "gigaray/adapters/input_file.h"
 #include "gigaray/adapters/maps.h"
 #include "gigaray/adapters/reader.h"
 #include "gigaray/adapters/shrunk.h"
@@ -54,13 +55,21 @@ LightField parse(const json& root) {
 class PicturesBesideMaps : public PixelSource {
  public:
   PicturesBesideMaps(std::vector<fs::path> files, const LightField& light_field)
-      : files_(std::move(files)), width_(light_field.width), height_(light_field.height) {
+      : files_(std::move(files)),
+        width_(light_field.width),
+        height_(light_field.height),
+        limit_(opening_limit()) {
     for (const fs::path& file : files_) {
-      const PictureSpec spec = read_picture_spec(file, Orientation::kIgnored);
+      const PictureSpec spec = read_picture_spec(file, Orientation::kIgnored, limit_);
       bit_depth_ = std::max(bit_depth_, spec.bit_depth);
       has_mask_ = has_mask_ || spec.width != width_ || spec.height != height_;
       if (spec.width > width_ || spec.height > height_)
         throw Error(ErrorCode::kBadInput, file.string() + ": is larger than gigaray.json states");
+      constexpr double kCanvas = 8;  // bytes per px
+      hold_against_limit(
+          file.string(),
+          "is brought to the " + size_text(width_, height_) + " px that gigaray.json states",
+          kCanvas * width_ * height_, limit_);
     }
   }
   bool has_mask() const override { return has_mask_; }
@@ -69,7 +78,7 @@ class PicturesBesideMaps : public PixelSource {
   Image<std::uint16_t> read(int view) const override {
     PictureSpec spec;
     Image<std::uint16_t> picture =
-        decode_picture(files_.at(std::size_t(view)), Orientation::kIgnored, spec);
+        decode_picture(files_.at(std::size_t(view)), Orientation::kIgnored, spec, limit_);
     if (!has_mask_) return picture;
     Image<std::uint16_t> canvas(width_, height_, 4);
     for (int v = 0; v < picture.height(); ++v)
@@ -83,10 +92,11 @@ class PicturesBesideMaps : public PixelSource {
  private:
   std::vector<fs::path> files_;
   int width_, height_, bit_depth_ = 8;
+  double limit_;
   bool has_mask_ = false;
 };
 
-json read_json(const fs::path& path) { return json::parse(read_bytes(path), nullptr, false); }
+json read_json(const fs::path& path) { return json::parse(read_json_text(path), nullptr, false); }
 
 }  // namespace
 

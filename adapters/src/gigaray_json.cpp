@@ -7,6 +7,7 @@
 #include "camera_position.h"
 #include "described_light_field.h"
 #include "gigaray/adapters/atomic_output.h"
+#include "gigaray/adapters/input_file.h"
 #include "gigaray/adapters/light_field_json.h"
 #include "picture_files.h"
 #include "readers.h"
@@ -60,12 +61,13 @@ class GigarayJsonReader : public Reader {
   LightField open(const fs::path& input, const OpenOptions& options) const override {
     refuse_direction(options, "gigaray.json states");
     const fs::path path = json_of(input);
-    auto [light_field, names] = parse_light_field_json(read_bytes(path), path.string());
+    auto [light_field, names] =
+        parse_light_field_json(read_json_text(path, options.memory_bytes), path.string());
     std::vector<fs::path> files;
     for (const std::string& name : names) files.push_back(path.parent_path() / name);
     const int width = light_field.width, height = light_field.height;
     try {
-      if (!files.empty()) attach_pictures(light_field, std::move(files));
+      if (!files.empty()) attach_pictures(light_field, std::move(files), options.memory_bytes);
     } catch (const Error& problem) {
       throw Error(problem.code(), path.string() + ": " + problem.what());
     }

@@ -8,6 +8,7 @@
 
 #include "float_bytes.h"
 #include "gigaray/adapters/atomic_output.h"
+#include "gigaray/adapters/input_file.h"
 #include "gigaray/adapters/maps.h"
 #include "npy_matrix.h"
 #include "text.h"
@@ -64,8 +65,20 @@ NpyMatrix parse_npy_matrix(std::string_view bytes, const std::string& where) {
   return matrix;
 }
 
+NpyMatrix read_npy_matrix(const std::filesystem::path& path) {
+  // The bytes, and doubles of float32.
+  constexpr double kBytesPerByte = 1 + 2 + 1;
+  const double limit = opening_limit();
+  const InputFile file(path);
+  if (!file.read(0, kMagic.size()).starts_with(kMagic))
+    throw Error(ErrorCode::kBadInput, path.string() + ": is no NumPy file");
+  hold_against_limit(path.string(), "has " + std::to_string(file.size()) + " bytes",
+                     kBytesPerByte * double(file.size()), limit);
+  return parse_npy_matrix(file.read(0, file.size()), path.string());
+}
+
 FloatMap read_npy(const std::filesystem::path& path) {
-  const NpyMatrix matrix = parse_npy_matrix(read_bytes(path), path.string());
+  const NpyMatrix matrix = read_npy_matrix(path);
   FloatMap map(matrix.columns, matrix.rows);
   std::transform(matrix.values.begin(), matrix.values.end(), map.data(),
                  [](double value) { return float(value); });
