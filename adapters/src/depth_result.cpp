@@ -22,35 +22,6 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-LightField parse(const json& root) {
-  LightField light_field;
-  const json& about = root.at("light_field");
-  light_field.format = about.at("format");
-  light_field.width = about.at("width");
-  light_field.height = about.at("height");
-  if (light_field.width < 1 || light_field.height < 1)
-    throw Error(ErrorCode::kBadInput, "states a size of no pixels");
-  light_field.rig = rig_of(about);
-  for (const json& entry : root.at("views")) {
-    light_field.views.push_back(view_of(entry));
-    if (entry.contains("camera"))
-      light_field.cameras.push_back(camera_of(entry["camera"], light_field.views.back().name));
-  }
-  if (const auto left_out = root.find("left_out"); left_out != root.end())
-    for (const json& entry : *left_out) light_field.left_out.push_back(view_of(entry));
-  const std::string kind = about.at("kind");
-  if (kind == to_string(LightFieldKind::kUnstructured)) {
-    light_field.kind = LightFieldKind::kUnstructured;
-    if (light_field.cameras.size() != light_field.views.size())
-      throw Error(ErrorCode::kBadInput, "has not a camera for every view");
-  } else {
-    // Some views of a grid may lie on a line; the result stays what it was computed as.
-    light_field.kind =
-        kind == to_string(LightFieldKind::k3D) ? LightFieldKind::k3D : LightFieldKind::k4D;
-  }
-  return light_field;
-}
-
 /// Undistorted pictures that lie beside the maps; smaller ones are masked at the right and bottom.
 class PicturesBesideMaps : public PixelSource {
  public:
@@ -119,26 +90,10 @@ DepthResult::DepthResult(const fs::path& folder) : folder_(folder) {
     throw Error(ErrorCode::kBadInput,
                 folder.string() + ": is no result of `gigaray depth` (it has no gigaray.json)");
   const fs::path path = folder / "gigaray.json";
-  const json root = read_json(path);
-  if (!root.is_object())
-    throw Error(ErrorCode::kBadInput, path.string() + ": is damaged or no JSON object");
-  if (root.value("format", json()) != kDepthFormat)
-    throw Error(ErrorCode::kBadInput,
-                path.string() + ": describes no result of `gigaray depth`; give its output folder");
-  try {
-    light_field_ = parse(root);
-    input_ = root.at("input").get<std::string>();
-    const json& range = root.at("options").at("disparity_range");
-    searched_ = {range.at(0), range.at(1)};
-  } catch (const json::exception& problem) {
-    throw Error(
-        ErrorCode::kBadInput,
-        path.string() + ": an entry is missing or of the wrong type (" + problem.what() + ")");
-  } catch (const Error& problem) {
-    throw Error(problem.code(), path.string() + ": " + problem.what());
-  }
-  if (light_field_.views.empty())
-    throw Error(ErrorCode::kBadInput, path.string() + ": names no view");
+  DescribedDepth described = parse_depth_json(read_json_text(path), path.string());
+  light_field_ = std::move(described.light_field);
+  input_ = std::move(described.input);
+  searched_ = described.searched;
 }
 
 FloatMap DepthResult::map(int view, const char* name) const {

@@ -61,7 +61,8 @@ std::uint64_t SectionWriter::finish(std::string_view directory) {
   return size_;
 }
 
-SectionReader::SectionReader(const std::filesystem::path& path) : file_(path), size_(file_.size()) {
+SectionReader::SectionReader(const std::filesystem::path& path, double limit)
+    : file_(path), size_(file_.size()), limit_(limit) {
   const auto bad = [&](const std::string& what) {
     return Error(ErrorCode::kBadInput, path.string() + ": " + what);
   };
@@ -86,6 +87,8 @@ SectionReader::SectionReader(const std::filesystem::path& path) : file_(path), s
 std::string SectionReader::read(const Section& section) const {
   if (section.offset > size_ || section.size > size_ - section.offset)
     throw Error(ErrorCode::kBadInput, path().string() + ": is damaged: a section lies outside");
+  hold_against_limit(path().string(), "has a section of " + std::to_string(section.size) + " bytes",
+                     double(section.size), limit_);
   const std::string bytes = file_.read(section.offset, section.size);
   if (bytes.size() != section.size)
     throw Error(ErrorCode::kIo, path().string() + ": can't be read to its end");

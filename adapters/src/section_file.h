@@ -38,7 +38,8 @@ class SectionWriter {
 /// cut short, damaged.
 class SectionReader {
  public:
-  explicit SectionReader(const std::filesystem::path& path);
+  /// limit: bytes that a section may have.
+  SectionReader(const std::filesystem::path& path, double limit);
   std::string read(const Section& section) const;
   std::string directory() const { return read(directory_); }
   std::uint64_t size() const { return size_; }
@@ -47,6 +48,7 @@ class SectionReader {
  private:
   InputFile file_;
   std::uint64_t size_ = 0;
+  double limit_;
   Section directory_;
 };
 
