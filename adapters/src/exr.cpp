@@ -59,7 +59,7 @@ FloatMap parse_exr(const std::string& bytes, const std::string& where, double li
   const auto bad = [&](const std::string& what) {
     return Error(ErrorCode::kBadInput, where + ": " + what);
   };
-  const ExrHeader stated = parse_exr_header(bytes, where);
+  const ExrHeader stated = parse_exr_header(bytes, bytes.size(), where);
   // The map, and a chunk as it is packed, unpacked and sorted.
   hold_against_limit(
       where, "states " + size_text(stated.width, stated.height) + " px",
@@ -88,8 +88,13 @@ FloatMap parse_exr(const std::string& bytes, const std::string& where, double li
 }
 
 FloatMap read_exr(const std::filesystem::path& path) {
+  constexpr std::uint64_t kMostHeader = 4 << 20;
   const double limit = opening_limit();
-  return parse_exr(read_bytes(path, limit), path.string(), limit);
+  const InputFile file(path);
+  parse_exr_header(file.read(0, kMostHeader), file.size(), path.string());
+  hold_against_limit(path.string(), "has " + std::to_string(file.size()) + " bytes",
+                     double(file.size()), limit);
+  return parse_exr(file.read(0, file.size()), path.string(), limit);
 }
 
 void write_exr(const std::filesystem::path& path, const FloatMap& map) {

@@ -80,7 +80,8 @@ int count_channels(std::string_view list, const std::string& where) {
 
 }  // namespace
 
-ExrHeader parse_exr_header(std::string_view bytes, const std::string& where) {
+ExrHeader parse_exr_header(std::string_view bytes, std::uint64_t file_size,
+                           const std::string& where) {
   Reader file(bytes, where);
   if (bytes.size() < 8 || file.get<std::uint32_t>() != kMagic) file.bad("is no OpenEXR file");
   const auto flags = file.get<std::uint32_t>();
@@ -128,9 +129,9 @@ ExrHeader parse_exr_header(std::string_view bytes, const std::string& where) {
   const double chunks = double((width + chunk_width - 1) / chunk_width) *
                         double((height + chunk_height - 1) / chunk_height);
   constexpr double kLeastOfChunk = 16;  // its offset, its row and its size
-  if (kLeastOfChunk * chunks > double(file.rest()))
+  if (kLeastOfChunk * chunks > double(file_size) - double(bytes.size() - file.rest()))
     file.bad("is cut short: it states " + size_text(header.width, header.height) + " px and has " +
-             std::to_string(bytes.size()) + " bytes");
+             std::to_string(file_size) + " bytes");
   return header;
 }
 

@@ -28,9 +28,10 @@ struct ExrHeader {
   int width = 0, height = 0;  ///< of the window with data
   double chunk_pixels = 0;    ///< that are decoded at once
 };
-/// Looks through the header of a whole OpenEXR file by itself, since the library takes the sizes of
-/// attributes and tables as they are stated.
-ExrHeader parse_exr_header(std::string_view bytes, const std::string& where);
+/// Looks through the header of an OpenEXR file by itself, since the library takes the sizes of
+/// attributes and tables as they are stated. bytes: the first ones of a file of file_size.
+ExrHeader parse_exr_header(std::string_view bytes, std::uint64_t file_size,
+                           const std::string& where);
 /// A map of one channel. limit: bytes it may take.
 FloatMap parse_exr(const std::string& bytes, const std::string& where, double limit);
 

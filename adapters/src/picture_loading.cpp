@@ -58,7 +58,9 @@ const Decoder& decoder_of(const InputFile& file) {
 }
 
 bool is_interlaced(const vips::VImage& image) {
-  return image.get_typeof("interlaced") != 0 || image.get_typeof("jpeg-multiscan") != 0;
+  for (const char* field : {"interlaced", "jpeg-multiscan"})
+    if (image.get_typeof(field) != 0 && image.get_int(field) != 0) return true;
+  return false;
 }
 
 /// Every scan of a progressive JPEG goes over the whole picture again; cameras write ten or so.

@@ -236,9 +236,13 @@ TEST_F(HostileInput, MapsAreHeldAgainstTheirFilesAndTheLimit) {
              [&] { read_pfm(hollow("b.pfm", "Pf 1048576 1048576 -1\n", 22 + huge)); });
   expect_bad({"b.bin", "limit"},
              [&] { read_colmap_depth_map(hollow("b.bin", "1048576&1048576&1&", 18 + huge)); });
-  expect_bad({"b.npy", "limit"}, [&] { read_npy(hollow("b.npy", "\x93NUMPY", huge)); });
+  std::string header = "{'descr': '<f4', 'fortran_order': False, 'shape': (1048576, 1048576), }";
+  header.resize(118, ' ');
+  expect_bad({"b.npy", "limit"}, [&] {
+    read_npy(hollow("b.npy", std::string("\x93NUMPY\x01\x00\x76\x00", 10) + header, 128 + huge));
+  });
   expect_bad({"c.npy", "no NumPy"}, [&] { read_npy(hollow("c.npy", "", huge)); });
-  expect_bad({"b.exr", "limit"}, [&] { read_exr(hollow("b.exr", "", huge)); });
+  expect_bad({"b.exr", "no OpenEXR"}, [&] { read_exr(hollow("b.exr", "", huge)); });
 }
 
 TEST_F(HostileInput, ExrHeadersAreHeldAgainstTheFileAndTheLimit) {
