@@ -12,7 +12,7 @@ namespace gigaray::cli {
 
 /// --preset and --memory, for the commands that have not all of DepthRunOptions.
 void add_preset_option(CLI::App& app, std::string& preset);
-void add_memory_option(CLI::App& app, double& gib);
+void add_memory_option(CLI::App& app, double& gib, OpenOptions& open);
 
 /// INPUT and the options that decide the result; shared by `depth`, `probe` and `compare`.
 struct DepthRunOptions {

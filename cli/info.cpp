@@ -216,7 +216,7 @@ Run info_command(CLI::App& app) {
   auto options = std::make_shared<InfoOptions>();
   options->input.add_to(app);
   add_preset_option(app, options->preset);
-  add_memory_option(app, options->memory_gib);
+  add_memory_option(app, options->memory_gib, options->input.open);
   app.add_flag("--json", options->json, "Print JSON");
   return [options](const RunControl&) {
     InputOptions& input = options->input;

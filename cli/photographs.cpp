@@ -4,11 +4,10 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
-#include <iterator>
 #include <string>
 
 #include "gigaray/adapters/atomic_output.h"
+#include "gigaray/adapters/input_file.h"
 #include "gigaray/adapters/photographs.h"
 
 namespace gigaray::cli {
@@ -40,11 +39,6 @@ std::string record_of(const fs::path& photographs, const ColmapRunOptions& optio
   return record;
 }
 
-std::string text_of(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
 /// Why the pictures are no row; empty: they are, or may be.
 std::string why_no_row(const InputOptions& input, const RunControl& control) {
   const std::string why = why_no_series(input.input);
@@ -63,7 +57,7 @@ fs::path find_cameras(const fs::path& photographs, const ColmapRunOptions& optio
   if (!work.has_filename()) work = work.parent_path();
   work += ".colmap";
   const std::string record = record_of(photographs, options);
-  if (text_of(work / kRecord) == record) {
+  if (fs::exists(work / kRecord) && read_text(work / kRecord) == record) {
     control.message(fmt::format("cameras as COLMAP found them before, in {}", work.string()));
     return work;
   }
@@ -101,6 +95,7 @@ LightField open_or_find_cameras(InputOptions input, const OutputOption& output,
   OpenOptions open;
   open.images = input.input;
   open.masks = input.open.masks;
+  open.memory_bytes = input.open.memory_bytes;
   return input.open_light_field(work, open);
 }
 

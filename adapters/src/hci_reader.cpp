@@ -8,6 +8,7 @@
 #include <regex>
 
 #include "camera_position.h"
+#include "gigaray/adapters/input_file.h"
 #include "hci_parameters.h"
 #include "picture_files.h"
 #include "readers.h"
@@ -80,7 +81,7 @@ class HciReader : public Reader {
     std::error_code ignored;
     std::optional<HciParameters> parameters;
     if (fs::exists(parameter_file, ignored))
-      parameters.emplace(read_bytes(parameter_file), parameter_file.string());
+      parameters.emplace(read_text(parameter_file), parameter_file.string());
     const int columns =
         parameters ? parameters->cameras("num_cams_x", kUsualCameras) : kUsualCameras;
     const int rows = parameters ? parameters->cameras("num_cams_y", kUsualCameras) : kUsualCameras;
@@ -115,7 +116,7 @@ class HciReader : public Reader {
       light_field.notes.push_back(std::to_string(files.size()) + " of " +
                                   std::to_string(columns * rows) + " views of the grid are there");
     light_field.kind = kind_from_positions(light_field.views);
-    attach_pictures(light_field, std::move(files));
+    attach_pictures(light_field, std::move(files), options.memory_bytes);
     if (parameters) apply(*parameters, light_field);
     return light_field;
   }

@@ -7,6 +7,7 @@
 #include <system_error>
 
 #include "camera_position.h"
+#include "gigaray/adapters/input_file.h"
 #include "picture_files.h"
 #include "projection.h"
 #include "readers.h"
@@ -51,7 +52,7 @@ class MiddleburyParReader : public Reader {
                                             " files of cameras; name one of them, such as " +
                                             files.front().string());
     const fs::path& file = files.front();
-    return open_stated_views(parse_middlebury_par(read_bytes(file), file.string()), file,
+    return open_stated_views(parse_middlebury_par(read_text(file), file.string()), file,
                              {file.parent_path(), file.parent_path() / "images"}, options, kName);
   }
 };

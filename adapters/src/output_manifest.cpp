@@ -5,12 +5,12 @@
 #include <sys/stat.h>
 
 #include <algorithm>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <system_error>
 
 #include "gigaray/adapters/atomic_output.h"
+#include "gigaray/adapters/input_file.h"
 #include "gigaray/adapters/path_text.h"
 #include "gigaray/error.h"
 
@@ -58,12 +58,9 @@ OutputManifest::OutputManifest(const fs::path& folder, std::string kind) : kind_
 }
 
 std::optional<OutputManifest> OutputManifest::read(const fs::path& folder) {
-  std::error_code error;
-  if (!fs::is_regular_file(fs::symlink_status(folder / kFileName, error))) return std::nullopt;
-  std::ifstream file(folder / kFileName, std::ios::binary);
   OutputManifest manifest;
   try {
-    const json root = json::parse(file);
+    const json root = json::parse(read_json_text(folder / kFileName));
     if (root.at("format") != kFormat || root.at("version") != kVersion) return std::nullopt;
     manifest.kind_ = root.at("kind");
     for (const json& line : root.at("files")) {
@@ -74,6 +71,8 @@ std::optional<OutputManifest> OutputManifest::read(const fs::path& folder) {
         entry.link = path_of_text(line["link"].get<std::string>()).native();
     }
   } catch (const json::exception&) {
+    return std::nullopt;
+  } catch (const Error&) {
     return std::nullopt;
   }
   return manifest;

@@ -9,6 +9,7 @@
 #include <system_error>
 #include <utility>
 
+#include "gigaray/adapters/input_file.h"
 #include "picture_files.h"
 #include "readers.h"
 
@@ -90,6 +91,7 @@ LightField open_light_field(const fs::path& input, const OpenOptions& options) {
   if (!fs::exists(input, error))
     throw Error(error ? ErrorCode::kIo : ErrorCode::kBadInput,
                 input.string() + ": " + (error ? error.message() : "no such file or folder"));
+  if (!fs::is_directory(input, error)) check_input_file(input);
   const Reader& reader = reader_for(input, options);
   LightField light_field = reader.open(input, options);
   light_field.format = reader.name();

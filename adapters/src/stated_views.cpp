@@ -9,6 +9,7 @@
 #include <system_error>
 #include <utility>
 
+#include "gigaray/adapters/input_file.h"
 #include "mask_folder.h"
 #include "picture_files.h"
 #include "picture_folder.h"
@@ -54,10 +55,10 @@ std::vector<std::string> names_below(const std::vector<StatedView>& views,
   return names;
 }
 
-void complete_lens(StatedView& view, const fs::path& picture) {
+void complete_lens(StatedView& view, const fs::path& picture, double limit) {
   Lens& lens = view.lens;
   if (lens.width > 0) return;
-  const PictureSpec spec = read_picture_spec(picture, Orientation::kIgnored);
+  const PictureSpec spec = read_picture_spec(picture, Orientation::kIgnored, limit);
   lens.width = spec.width;
   lens.height = spec.height;
   if (view.field_of_view)
@@ -103,13 +104,14 @@ LightField open_stated_views(std::vector<StatedView> views, const fs::path& file
   const fs::path folder = folder_of_pictures(file, places, names);
   const std::vector<std::string> view_name = view_names(names);
 
+  const double limit = opening_limit(options.memory_bytes);
   std::vector<PosedPicture> pictures;
   for (std::size_t i = 0; i < views.size(); ++i) {
     StatedView& view = views[i];
     PosedPicture picture;
     picture.file = folder / names[i];
     picture.name = view_name[i];
-    complete_lens(view, picture.file);
+    complete_lens(view, picture.file, limit);
     picture.lens = view.lens;
     picture.rotation = view.rotation;
     picture.translation = view.translation;
@@ -119,7 +121,7 @@ LightField open_stated_views(std::vector<StatedView> views, const fs::path& file
   }
   std::vector<std::string> notes;
   if (!options.masks.empty()) attach_masks(pictures, names, options.masks, notes);
-  LightField light_field = posed_light_field(std::move(pictures), format);
+  LightField light_field = posed_light_field(std::move(pictures), format, options.memory_bytes);
   light_field.notes.insert(light_field.notes.begin(), notes.begin(), notes.end());
   return light_field;
 }

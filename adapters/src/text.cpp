@@ -3,13 +3,8 @@
 #include "text.h"
 
 #include <algorithm>
-#include <cerrno>
 #include <charconv>
-#include <fstream>
-#include <iterator>
 #include <system_error>
-
-#include "gigaray/error.h"
 
 namespace gigaray {
 
@@ -39,6 +34,7 @@ std::vector<std::string> split_words(std::string_view line) {
   constexpr std::string_view kSeparators = " \t\r\n,;";
   std::vector<std::string> words;
   for (std::size_t begin = 0;
+       words.size() < kMostWords &&
        (begin = line.find_first_not_of(kSeparators, begin)) != std::string_view::npos;) {
     const std::size_t end = std::min(line.find_first_of(kSeparators, begin), line.size());
     words.emplace_back(line.substr(begin, end - begin));
@@ -53,19 +49,6 @@ std::string in_quotes(std::string_view word) {
   for (std::size_t i = 0; i < std::min(word.size(), kMost) + 1; ++i)
     if (static_cast<unsigned char>(text[i]) < ' ' || text[i] == '\x7f') text[i] = '?';
   return text;
-}
-
-std::string read_bytes(const std::filesystem::path& path) {
-  std::error_code ignored;
-  if (std::filesystem::is_directory(path, ignored))
-    throw Error(ErrorCode::kIo, path.string() + ": is a folder, not a file");
-  errno = 0;
-  std::ifstream file(path, std::ios::binary);
-  std::string bytes{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-  if (!file.is_open() || file.bad())
-    throw Error(ErrorCode::kIo,
-                path.string() + ": can't be read (" + std::generic_category().message(errno) + ")");
-  return bytes;
 }
 
 }  // namespace gigaray

@@ -2,7 +2,6 @@
 // Copyright (c) 2026 The Gigaray authors
 #pragma once
 
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -20,13 +19,12 @@ std::string_view trimmed(std::string_view text);
 /// Lower case of ASCII letters.
 std::string lower(std::string text);
 
-/// Words between white space, commas and semicolons.
+/// Words between white space, commas and semicolons: the first kMostWords of them, which is more
+/// than any line has that is meant.
+inline constexpr std::size_t kMostWords = 1000;
 std::vector<std::string> split_words(std::string_view line);
 
 /// A word of a file for a message: in quotes, shortened, control characters replaced.
 std::string in_quotes(std::string_view word);
-
-/// Everything in a file. Throws Error(kIo) naming it.
-std::string read_bytes(const std::filesystem::path& path);
 
 }  // namespace gigaray

@@ -9,6 +9,7 @@
 #include <system_error>
 
 #include "camera_position.h"
+#include "gigaray/adapters/input_file.h"
 #include "readers.h"
 #include "stated_views.h"
 #include "text.h"
@@ -156,8 +157,9 @@ class TransformsJsonReader : public Reader {
   LightField open(const fs::path& input, const OpenOptions& options) const override {
     refuse_direction(options, "transforms.json states");
     const fs::path file = file_of(input);
-    return open_stated_views(parse_transforms_json(read_bytes(file), file.string()), file,
-                             {file.parent_path()}, options, kName);
+    return open_stated_views(
+        parse_transforms_json(read_json_text(file, options.memory_bytes), file.string()), file,
+        {file.parent_path()}, options, kName);
   }
 };
 

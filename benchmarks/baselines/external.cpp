@@ -8,7 +8,6 @@
 #include <cctype>
 #include <cerrno>
 #include <chrono>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
@@ -17,6 +16,7 @@
 #include "baselines/pair.h"
 #include "baselines/pictures.h"
 #include "gigaray/adapters/child_process.h"
+#include "gigaray/adapters/input_file.h"
 #include "gigaray/adapters/maps.h"
 
 namespace gigaray::baselines {
@@ -57,9 +57,7 @@ Description read_description(const fs::path& path) {
   const auto bad = [&](const std::string& what) {
     return Error(ErrorCode::kBadInput, path.string() + ": " + what);
   };
-  std::ifstream file(path);
-  if (!file) throw Error(ErrorCode::kBadInput, path.string() + ": can't be opened");
-  const auto root = nlohmann::json::parse(file, nullptr, false);
+  const auto root = nlohmann::json::parse(read_json_text(path), nullptr, false);
   if (!root.is_object()) throw bad("is not a JSON object");
   for (const auto& [key, value] : root.items()) {
     static const std::vector<std::string> known{"name",    "title",    "reference", "parameters",

@@ -54,7 +54,8 @@ inline SparseFileReport write_sparse_file(const std::filesystem::path& path,
 /// when it is damaged.
 class SparseFile {
  public:
-  explicit SparseFile(const std::filesystem::path& path);
+  /// memory_bytes: most that decoding may take; 0: default_memory_limit().
+  explicit SparseFile(const std::filesystem::path& path, double memory_bytes = 0);
 
   /// Its pixels come from the file. Exactly those that were encoded when max_error() is 0.
   LightField light_field() const;
