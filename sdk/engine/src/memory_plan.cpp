@@ -4,11 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <thread>
 
 #include "gigaray/memory_limit.h"
 #include "gigaray/samplers/any_sampler.h"
+#include "gigaray/scratch_file.h"
 #include "search_bounds.h"
 
 namespace gigaray {
@@ -146,10 +146,6 @@ class Planner {
     result.forecast.disk_bytes = in_files ? store_bytes() : 0;
     const int first = result.levels.front().band_rows;
     result.forecast.bands = (light_field_.height + first - 1) / first;
-    if (in_files)
-      result.work_folder = options_.work_folder.empty()
-                               ? std::filesystem::temp_directory_path().string()
-                               : options_.work_folder;
     return result;
   }
 
@@ -253,6 +249,10 @@ MemoryPlan plan_memory(const LightField& light_field, const DepthOptions& option
                     std::to_string(int(std::ceil(planner.least_limit() / kMiB))) + " MiB");
   const bool keep = in_memory && (in_memory->forecast.bands <= 4 || !in_files);
   MemoryPlan chosen = keep ? *in_memory : *in_files;
+  if (!keep)
+    chosen.work_folder = options.work_folder.empty()
+                             ? temporary_folder(" or name another folder by --work")
+                             : options.work_folder;
   chosen.forecast.memory_all_bytes = planner.everything(usual);
   return chosen;
 }
