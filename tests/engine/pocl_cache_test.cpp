@@ -24,8 +24,12 @@ class PoclCacheTest : public testing::Test {
  protected:
   void SetUp() override { fs::create_directory(folder_); }
 
-  /// Leaves a record of what the folder holds.
-  void record() const { const PoclCache cache(folder_); }
+  /// A run that makes files and comes to its end.
+  template <class Make>
+  void run(Make make) const {
+    const PoclCache cache(folder_);
+    make();
+  }
 
   const ScopedFolder scope_;
   const fs::path folder_ = scope_.path / "pocl";
@@ -33,11 +37,12 @@ class PoclCacheTest : public testing::Test {
 
 TEST_F(PoclCacheTest, ProgramsThatAreNotAsRecordedAreRemoved) {
   const char* const so = "kernel/1-1-1/kernel.so";
-  for (const char* program : {"CUT", "GONE", "ZERO", "FLIPPED", "LONGER", "WHOLE"}) {
-    write(folder_ / "AB" / program / "program.bc", 100);
-    write(folder_ / "AB" / program / so, 5000);
-  }
-  record();
+  run([&] {
+    for (const char* program : {"CUT", "GONE", "ZERO", "FLIPPED", "LONGER", "WHOLE"}) {
+      write(folder_ / "AB" / program / "program.bc", 100);
+      write(folder_ / "AB" / program / so, 5000);
+    }
+  });
 
   write(folder_ / "AB/CUT" / so, 77);
   fs::remove(folder_ / "AB/GONE/program.bc");
@@ -54,9 +59,10 @@ TEST_F(PoclCacheTest, ProgramsThatAreNotAsRecordedAreRemoved) {
 
 // A run that was killed wrote nothing down: what it made may be half a file.
 TEST_F(PoclCacheTest, WhatWasNeverRecordedIsRemoved) {
-  write(folder_ / "AB/OLD/program.bc", 100);
-  write(folder_ / "AB/MORE/program.bc", 100);
-  record();
+  run([&] {
+    write(folder_ / "AB/OLD/program.bc", 100);
+    write(folder_ / "AB/MORE/program.bc", 100);
+  });
   write(folder_ / "AB/MORE/kernel/1-1-1/kernel.so", 30);
   write(folder_ / "AB/NEW/program.bc", 3);
   write(folder_ / "tempfile_x1y2z3.so", 3);
@@ -73,14 +79,11 @@ TEST_F(PoclCacheTest, WhatWasNeverRecordedIsRemoved) {
 
 TEST_F(PoclCacheTest, ADamagedRecordVouchesForNothing) {
   const fs::path file = folder_ / "AB/SOME/program.bc", records = folder_.string() + ".record";
-  write(file, 100);
-  record();
-  const auto size = fs::file_size(records);
-  for (const std::string& damaged : {std::string(size, '\0'), std::string("\n\n"), std::string()}) {
-    write(file, 100);
-    record();
-    write(file, 100);
-    std::ofstream(records, std::ios::binary) << damaged;
+  for (const char damage : {'\0', '\n', 'x'}) {
+    run([&] { write(file, 100); });
+    ASSERT_TRUE(fs::exists(file));
+    const auto size = fs::file_size(records);
+    std::ofstream(records, std::ios::binary) << std::string(size, damage);
     const PoclCache cache(folder_);
     EXPECT_FALSE(fs::exists(file));
   }
@@ -88,8 +91,7 @@ TEST_F(PoclCacheTest, ADamagedRecordVouchesForNothing) {
 
 // PoCL aborts when its program vanishes while it compiles.
 TEST_F(PoclCacheTest, NothingIsRemovedWhileAnotherUsesIt) {
-  write(folder_ / "AB/PROGRAM/program.bc", 100);
-  record();
+  run([&] { write(folder_ / "AB/PROGRAM/program.bc", 100); });
   {
     const PoclCache other(folder_);
     write(folder_ / "AB/PROGRAM/program.bc", 200);
@@ -105,7 +107,7 @@ TEST_F(PoclCacheTest, OnlyTheLastUserRecords) {
   {
     const PoclCache other(folder_);
     write(folder_ / "AB/PROGRAM/program.bc", 10);  // as far as it has been written
-    record();
+    run([] {});
     EXPECT_FALSE(fs::exists(folder_.string() + ".record"));
     write(folder_ / "AB/PROGRAM/program.bc", 100);
   }
@@ -138,9 +140,10 @@ TEST_F(PoclCacheTest, AFolderWithoutRoomSaysWhy) {
 
 // Three of PoCL's programs a kernel, and the kernels of some inputs: 40 MB in 300 files.
 TEST_F(PoclCacheTest, CheckingIsQuick) {
-  for (int i = 0; i < 300; ++i)
-    write(folder_ / "AB" / std::to_string(i) / "kernel/1-1-1/kernel.so", 140'000);
-  record();
+  run([&] {
+    for (int i = 0; i < 300; ++i)
+      write(folder_ / "AB" / std::to_string(i) / "kernel/1-1-1/kernel.so", 140'000);
+  });
   const auto begin = std::chrono::steady_clock::now();
   const PoclCache cache(folder_);
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;

@@ -178,7 +178,7 @@ void clear_kernel_cache() {
   if (alone.is_in_use())
     throw Error(ErrorCode::kIo, "kernel cache: " + folder->string() +
                                     " is in use by another run; clear it when that has ended");
-  for (const auto part : {opencl::kProgramFolder, opencl::kPoclFolder}) {
+  for (const auto part : {opencl::kReadyFolder, opencl::kProgramFolder, opencl::kPoclFolder}) {
     std::error_code error;
     for (fs::directory_iterator it(*folder / part, error), end; !error && it != end;
          it.increment(error)) {

@@ -15,6 +15,7 @@
 
 #include "opencl/cache_folder.h"
 #include "opencl/content_hash.h"
+#include "opencl/ready_kernels.h"
 
 namespace gigaray::opencl {
 namespace fs = std::filesystem;
@@ -91,6 +92,7 @@ void PoclCache::remove_damaged_programs() const {
       recorded.erase(known);
   });
   for (const auto& [missing, hash] : recorded) damaged.insert(program_of(missing));
+  if (!damaged.empty()) forget_ready_kernels(folder_.parent_path());
   for (const fs::path& program : damaged) {
     std::error_code ignored;
     fs::remove_all(folder_ / program, ignored);

@@ -15,8 +15,10 @@ namespace gigaray {
 namespace {
 
 constexpr double kMiB = 1 << 20;
-/// The program itself, OpenCL and its compiler, decoding buffers of small pictures.
-constexpr double kProcessBytes = 220 * kMiB;
+/// The program itself, OpenCL without compiling, decoding buffers of small pictures.
+constexpr double kProcessBytes = 175 * kMiB;
+/// Tuples are kept in memory with the stores: so many per pixel of a picture, as a rule.
+constexpr double kTuplesPerPixel = 2;
 /// Most bytes of one device buffer that every OpenCL driver we know grants.
 constexpr double kLargestBuffer = 1800 * kMiB;
 constexpr int kSmallestLevel = 10;  // px
@@ -116,7 +118,7 @@ class Planner {
                              (40 + (support.slanted ? 24 : 0) + (options_.score.ray_mean ? 24 : 0));
     const double threads = std::min(4u, std::max(1u, std::thread::hardware_concurrency()));
     const double decoding = threads * 12.0 * light_field_.width * light_field_.height;
-    return kProcessBytes + copies * volume + std::max(view_maps, decoding);
+    return kProcessBytes + kCompilerBytes + options_.memory_beside + copies * volume + std::max(view_maps, decoding);
   }
 
   std::optional<MemoryPlan> plan(double limit, double volume, bool in_files) const {
@@ -173,7 +175,7 @@ class Planner {
     double stores = 0;
     for (const LevelShape& shape : shapes_)
       stores += cost_of(shape, light_field_, options_, active_, band_views_, false).stores;
-    return stores;
+    return stores + kTuplesPerPixel * sizeof(RayTuple) * light_field_.width * light_field_.height;
   }
   /// What the windows reach, a row for gradients, two for interpolation taps.
   int halo(const LevelShape& shape) const {
