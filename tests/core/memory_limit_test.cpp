@@ -165,7 +165,7 @@ TEST_F(MemoryLimit, TheProcessesOwnLimitsDecide) {
   EXPECT_TRUE(std::isinf(memory_left_by_limits(root)));
   {
     const ScopedLimit space(RLIMIT_AS, rlim_t(512 * 1024 * kMiB));
-    EXPECT_EQ(memory_left_by_limits(root) / kMiB, 512 * 1024 - 100);
+    EXPECT_EQ(memory_left_by_limits(root) / kMiB, 512 * 1024 - 100 - 300);
     const ScopedLimit data(RLIMIT_DATA, rlim_t(256 * 1024 * kMiB));
     EXPECT_EQ(memory_left_by_limits(root) / kMiB, 256 * 1024 - 50);
   }

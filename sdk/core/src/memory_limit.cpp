@@ -21,6 +21,8 @@ namespace gigaray {
 namespace fs = std::filesystem;
 namespace {
 
+/// Address space that libraries and threads map beyond what they use of it.
+constexpr double kUnusedSpace = 300 * double(1 << 20);
 constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 
 /// A count of bytes; nothing for "max" and for what is none.
@@ -141,7 +143,8 @@ double memory_left_by_limits(const fs::path& root) {
     if (getrlimit(resource, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return kUnlimited;
     return std::max(0.0, double(limit.rlim_cur) - mapped * page);
   };
-  return std::min(left_of(RLIMIT_AS, pages[0]), left_of(RLIMIT_DATA, pages[5]));
+  return std::min(left_of(RLIMIT_AS, pages[0] + kUnusedSpace / page),
+                  left_of(RLIMIT_DATA, pages[5]));
 }
 
 double available_memory() {

@@ -19,7 +19,8 @@ double default_memory_limit();
 /// `root`; infinity when they say nothing.
 double memory_left_by_system(const std::filesystem::path& root);
 
-/// Bytes that RLIMIT_AS and RLIMIT_DATA leave, less what is mapped by `root`/proc/self/statm;
+/// Bytes that RLIMIT_AS and RLIMIT_DATA leave, less what is mapped by `root`/proc/self/statm
+/// and, of address space, what libraries loaded later map without using it;
 /// infinity without limits.
 double memory_left_by_limits(const std::filesystem::path& root);
 
