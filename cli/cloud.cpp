@@ -4,12 +4,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <memory>
 
 #include "command.h"
 #include "gigaray/adapters/cloud_file.h"
 #include "gigaray/adapters/path_text.h"
+#include "memory_option.h"
 #include "numbers.h"
 #include "output_option.h"
 #include "surface_input.h"
@@ -19,10 +21,29 @@ namespace {
 
 using nlohmann::ordered_json;
 
+/// Bytes of a run, and of one that keeps its points in a file as far as it can.
+struct Needs {
+  double all, least;
+};
+
+Needs needs_of(const DepthViews& views) {
+  double pixels = 0;
+  for (const Camera& camera : views.cameras)
+    pixels = std::max(pixels, double(camera.width) * camera.height);
+  // A view and the views that bear witness for it, twice, and maps of the one at work.
+  const double reading = SurfaceInput::view_bytes(pixels, views.size()) + 200 * pixels;
+  // Points of all views, in vectors that grow; those of a tile, which is no larger than 512 voxels.
+  constexpr double kPoint = 64, kTilePoint = 40, kTile = 512.0 * 512;
+  const double least_store = 32 << 20;
+  return {
+      kProgramBytes + reading + kPoint * pixels * views.size(),
+      kProgramBytes + reading + least_store + kTilePoint * std::min(pixels, kTile) * views.size()};
+}
+
 struct Settings {
   SurfaceInput input;
   CloudOptions cloud;
-  double memory_gib = 2;
+  MemoryBudget memory;
   OutputOption output;
   bool json = false;
 };
@@ -33,7 +54,13 @@ void run(const Settings& settings, const RunControl& control) {
   const DepthViews views = settings.input.open(control);
   CloudOptions options = settings.cloud;
   options.points = settings.input.points;
-  options.memory = std::size_t(settings.memory_gib * double(1 << 30));
+  const Needs needs = needs_of(views);
+  const Camera& camera = views.cameras.front();
+  settings.memory.require(std::min(needs.all, needs.least),
+                          views_text(views.size(), camera.width, camera.height));
+  // Vectors that grow take up to twice what is in them.
+  if (settings.memory.bytes() < needs.all)
+    options.memory = std::size_t((32 << 20) + (settings.memory.bytes() - needs.least) / 2);
 
   const CloudReport report = settings.input.blamed([&] {
     return build_cloud(
@@ -83,11 +110,9 @@ Run cloud_command(CLI::App& app) {
       ->check(zero_or_more())
       ->type_name("X")
       ->capture_default_str();
-  app.add_option("--memory", settings->memory_gib,
-                 "GiB of points in memory; more are kept in the folder for temporary files")
-      ->check(CLI::Range(0.001, 1e6))
-      ->type_name("GiB")
-      ->capture_default_str();
+  settings->memory.add_to(app,
+                          "up to 64 bytes per pixel of all views; points that don't fit are kept "
+                          "in the folder for temporary files");
   app.add_flag("--json", settings->json, "Print the counts as JSON");
   return [settings](const RunControl& control) { run(*settings, control); };
 }

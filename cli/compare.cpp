@@ -173,6 +173,17 @@ std::string machine() {
   return fmt::format("{} threads", std::thread::hardware_concurrency());
 }
 
+/// What the baselines take beside OpenCL, which is loaded by then: all views as floats, and costs
+/// of a view. Our own presets have a forecast of their own.
+void require_memory(const Settings& settings, const Contest& contest) {
+  const LightField& light_field = contest.light_field;
+  const double pixels = double(light_field.width) * light_field.height;
+  constexpr double kOpenClBytes = 100 * double(1 << 20);
+  settings.run.budget().require(
+      kProgramBytes + kOpenClBytes + pixels * (18.0 * light_field.num_views() + 400),
+      views_text(light_field.num_views(), light_field.width, light_field.height));
+}
+
 void run(const Settings& settings, const RunControl& control) {
   std::vector<fs::path> inputs = settings.run.input.places();
   inputs.push_back(settings.truth);
@@ -188,6 +199,8 @@ void run(const Settings& settings, const RunControl& control) {
   contest.view = centre_view(contest.light_field);
   contest.unit = baselines::disparity_of_inverse_depth(contest.light_field, contest.view);
   find_truth_for(contest, settings, control);
+
+  require_memory(settings, contest);
 
   // Ours first: it finds the range to search when nothing states it.
   std::optional<DisparityRange> range = range_known(contest, resolved.disparity);

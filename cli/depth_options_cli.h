@@ -7,6 +7,7 @@
 
 #include "gigaray/reconstruct.h"
 #include "input_options.h"
+#include "memory_option.h"
 
 namespace gigaray::cli {
 
@@ -29,6 +30,7 @@ struct DepthRunOptions {
   /// The same without --preset and --partners.
   void add_all_but_preset_to(CLI::App& app);
   BackendChoice backend() const;
+  MemoryBudget budget() const { return MemoryBudget(memory_gib); }
   /// The options of the engine. Checks the direction of travel, which may turn the axes of the
   /// light field around.
   DepthOptions resolve(LightField& light_field, const RunControl& control) const;

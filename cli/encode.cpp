@@ -12,6 +12,7 @@
 #include "gigaray/adapters/depth_result.h"
 #include "gigaray/adapters/sparse_file.h"
 #include "gigaray/reconstruct.h"
+#include "memory_option.h"
 #include "numbers.h"
 #include "output_option.h"
 
@@ -63,9 +64,16 @@ void print_text(const SparseFileReport& report, double depth_seconds, double enc
   line("seconds", fmt::format("{:.1f} depth, {:.1f} encoding", depth_seconds, encode_seconds));
 }
 
+/// Slopes and tuples of all views, and the planes of the view that is coded. Without the program.
+double coding_bytes(const LightField& light_field) {
+  return double(light_field.width) * light_field.height * (13.0 * light_field.num_views() + 60);
+}
+
 DisparityOfView computed(const Settings& settings, LightField& light_field,
                          const RunControl& control) {
-  const DepthOptions options = settings.run.resolve(light_field, control);
+  DepthOptions options = settings.run.resolve(light_field, control);
+  // The estimates stay while the file is written.
+  options.memory_beside = coding_bytes(light_field);
   const auto depth = std::make_shared<Reconstruction>(
       reconstruct(light_field, options, settings.run.backend(), control));
   return [depth](int view) { return depth->view(view).disparity; };
@@ -110,6 +118,11 @@ void run(const Settings& settings, const RunControl& control) {
                     ": a sparse light field holds 3D and 4D light fields, not photographs from "
                     "anywhere");
   const auto begin = Clock::now();
+  // Reading the depth takes less than computing it, which has a forecast of its own.
+  if (!settings.depth.empty())
+    settings.run.budget().require(
+        kProgramBytes + coding_bytes(light_field),
+        views_text(light_field.num_views(), light_field.width, light_field.height));
   const DisparityOfView disparity = settings.depth.empty()
                                         ? computed(settings, light_field, control)
                                         : read(settings, light_field);

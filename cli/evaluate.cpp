@@ -17,6 +17,7 @@
 #include "gigaray/adapters/atomic_output.h"
 #include "gigaray/adapters/maps.h"
 #include "gigaray/adapters/pictures.h"
+#include "memory_option.h"
 
 namespace gigaray::cli {
 namespace {
@@ -32,6 +33,7 @@ struct EvaluateOptions {
   std::vector<std::string> metrics{"hci"};
   std::vector<std::string> masks;
   ScoreChoice choice;
+  MemoryBudget memory;
   bool json = false;
   std::string csv;
   fs::path error_map;
@@ -87,6 +89,20 @@ void check(const EvaluateOptions& options) {
   if (options.json && options.csv == "-") refuse("--json and --csv - both print; leave one out");
 }
 
+/// A map of floats has 4 bytes per pixel in its file, some 8 maps of the size are made of it.
+void require_memory(const EvaluateOptions& options, const ViewMaps& maps) {
+  double largest = 0;
+  std::vector<fs::path> files = maps.estimates;
+  files.push_back(maps.truth);
+  for (const fs::path& file : files) {
+    std::error_code error;
+    if (const auto bytes = fs::file_size(file, error); !error)
+      largest = std::max(largest, double(bytes));
+  }
+  options.memory.require(kProgramBytes + 8 * largest,
+                         fmt::format("maps of {:.3g} million pixels", largest / 4e6));
+}
+
 /// files: error maps are added.
 std::vector<ScoreRow> score(const EvaluateOptions& options, std::vector<AtomicFile>& files,
                             const RunControl& control) {
@@ -98,6 +114,7 @@ std::vector<ScoreRow> score(const EvaluateOptions& options, std::vector<AtomicFi
   std::vector<ScoreRow> rows;
   for (const ViewMaps& maps : views) {
     control.throw_if_cancelled();
+    require_memory(options, maps);
     const FloatMap truth = read_truth(maps.truth);
     SceneParts scene;
     // The masks of a scene are those of its centre view.
@@ -169,6 +186,7 @@ Run evaluate_command(CLI::App& app) {
       ->allow_extra_args(false);
   app.add_option("--border", options->choice.border,
                  "Pixels left out on each side [15 for hci, 0 for middlebury]");
+  options->memory.add_to(app, "some 32 bytes per pixel of a map");
   app.add_flag("--json", options->json, "Print JSON");
   app.add_option("--csv", options->csv, "Write a CSV table, a line per map; - prints it")
       ->type_name("FILE|-");

@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <memory>
+#include <utility>
 
 #include "command.h"
 #include "gigaray/adapters/mesh_file.h"
@@ -12,6 +13,7 @@
 #include "gigaray/meshing/grid_mesh.h"
 #include "gigaray/meshing/mesh_processing.h"
 #include "gigaray/meshing/mesh_report.h"
+#include "memory_option.h"
 #include "numbers.h"
 #include "output_option.h"
 #include "surface_input.h"
@@ -21,6 +23,9 @@ namespace {
 
 using nlohmann::ordered_json;
 
+/// With what CGAL keeps of them for cleaning and the report.
+constexpr double kVertexBytes = 150, kFaceBytes = 150;
+
 struct Settings {
   SurfaceInput input;
   OutputOption output;
@@ -29,6 +34,7 @@ struct Settings {
   std::size_t most_points = 300'000;
   double trim = PoissonOptions{}.trim;
   MeshCleaning cleaning;
+  MemoryBudget memory;
   bool json = false;
 };
 
@@ -50,6 +56,27 @@ SurfaceMesh surface_of(const Settings& settings, const DepthViews& views, PointC
                          : advancing_front_mesh(cloud, {}, control);
   control.progress("surface", 1, 1);
   return mesh;
+}
+
+std::string text_of(const DepthViews& views) {
+  return views_text(views.size(), views.cameras.front().width, views.cameras.front().height);
+}
+
+/// Bytes until there is a surface.
+double bytes_before_surface(const Settings& settings, const DepthViews& views) {
+  double pixels = 0;
+  for (const Camera& camera : views.cameras)
+    pixels = std::max(pixels, double(camera.width) * camera.height);
+  const double reading = SurfaceInput::view_bytes(pixels, views.size()) + 200 * pixels;
+  // grid: a map of each view that has a part, and a surface of twice the pixels of a view.
+  if (settings.method == "grid")
+    return kProgramBytes + reading + pixels * (4.0 * views.size() + 2 * kVertexBytes);
+  return kProgramBytes + reading + 64 * pixels * views.size();
+}
+
+double bytes_of_surface(const SurfaceMesh& mesh) {
+  return kProgramBytes + kVertexBytes * double(mesh.positions.size()) +
+         kFaceBytes * double(mesh.faces.size());
 }
 
 ordered_json report_json(const MeshReport& report) {
@@ -84,11 +111,15 @@ void run(const Settings& settings, const RunControl& control) {
                   {".ply", ".obj", ".glb", ".stl"});
   const auto begin = std::chrono::steady_clock::now();
   const DepthViews views = settings.input.open(control);
+  settings.memory.require(bytes_before_surface(settings, views), text_of(views));
   PointCounts counts;
   MeshCleaned done;
-  const SurfaceMesh mesh =
-      cleaned(settings.input.blamed([&] { return surface_of(settings, views, counts, control); }),
-              settings.cleaning, &done);
+  SurfaceMesh surface =
+      settings.input.blamed([&] { return surface_of(settings, views, counts, control); });
+  // How large the surface is shows only now; cleaning and the report take most.
+  settings.memory.require(bytes_of_surface(surface),
+                          fmt::format("a surface of {} vertices", surface.positions.size()));
+  const SurfaceMesh mesh = cleaned(std::move(surface), settings.cleaning, &done);
   if (mesh.faces.empty())
     throw Error(
         ErrorCode::kBadInput,
@@ -161,6 +192,9 @@ Run mesh_command(CLI::App& app) {
                  "Collapse edges until so many triangles are left")
       ->check(CLI::Range(std::size_t(4), std::size_t(4'000'000'000)))
       ->type_name("FACES");
+  settings->memory.add_to(app,
+                          "some 70 bytes per pixel of all views, and 450 per vertex of the "
+                          "surface, whose size shows only when it is there");
   app.add_flag("--json", settings->json, "Print counts and report as JSON");
   return [settings](const RunControl& control) { run(*settings, control); };
 }

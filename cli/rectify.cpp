@@ -18,6 +18,7 @@
 #include "gigaray/adapters/photographs.h"
 #include "gigaray/adapters/pictures.h"
 #include "gigaray/adapters/rail_rectification.h"
+#include "memory_option.h"
 #include "output_option.h"
 #include "photographs.h"
 
@@ -35,6 +36,7 @@ struct RectifyOptions {
   std::string rotations = "best";
   std::string poses = "auto";
   std::optional<double> step_mm;
+  MemoryBudget memory;
   bool json = false;
 };
 
@@ -53,6 +55,16 @@ KnownLens known_lens(const RectifyOptions& options) {
     known.lens->params.push_back(value);
   }
   return known;
+}
+
+/// Features are looked for in one photograph after the other, in scales from twice its size down;
+/// later each is straightened by itself. What COLMAP takes is its own.
+void require_memory(const RectifyOptions& options, const RailPhotographs& photographs) {
+  const double pixels = double(photographs.width) * photographs.height;
+  const double matching = 8e6 * double(photographs.pictures.size());
+  options.memory.require(
+      kProgramBytes + 700 * pixels + matching,
+      views_text(int(photographs.pictures.size()), photographs.width, photographs.height));
 }
 
 RailRotations parse_rotations(const std::string& name) {
@@ -231,6 +243,7 @@ void rectify(const RectifyOptions& options, const RunControl& control) {
       is_workspace && fs::is_directory(images) ? images : folder_of_photographs(options.input);
   const KnownLens known = known_lens(options);
   const RailPhotographs in_order = open_rail_in_order(photographs, known);
+  require_memory(options, in_order);
   const RectifiedRail rail =
       options.poses == "order" ? calibrate(in_order, options, control)
       : is_workspace ? calibrate(with_colmap_cameras(in_order, options.input), options, control)
@@ -284,6 +297,9 @@ Run rectify_command(CLI::App& app) {
   app.add_option("--rail-step", options->step_mm,
                  "Mean distance of neighbouring cameras: depth will be in mm")
       ->type_name("MM");
+  options->memory.add_to(app,
+                         "some 700 bytes per pixel of a photograph, and what COLMAP takes, which "
+                         "has no limit");
   app.add_flag("--json", options->json, "Print JSON");
   return [options](const RunControl& control) { rectify(*options, control); };
 }

@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The Gigaray authors
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -18,6 +19,7 @@
 #include "gigaray/adapters/pictures.h"
 #include "gigaray/picture_quality.h"
 #include "gigaray/refocus.h"
+#include "memory_option.h"
 #include "numbers.h"
 #include "output_option.h"
 #include "render_scene.h"
@@ -40,6 +42,7 @@ struct Settings {
   int frames = 60;
   int sources = 8;
   double min_confidence = 0;
+  MemoryBudget memory;
   bool equal_weights = false;
   bool json = false;
 };
@@ -256,6 +259,24 @@ void render_refocused(const Settings& settings, RenderScene& scene, Output& outp
     fmt::print("{}: view.png\n", settings.output.path.string());
 }
 
+/// Refuses what doesn't fit, and keeps as many views as do.
+void fit_into_memory(const Settings& settings, RenderScene& scene) {
+  const LightField& light_field = scene.light_field();
+  const double pixels = double(light_field.width) * light_field.height;
+  const int sources = std::min(settings.sources, light_field.num_views());
+  // Copies of the sources, a map of what each gives, pictures and maps that are written; of
+  // --leave-out those of all ways to render.
+  const double work = settings.refocus.empty()
+                          ? sources * (scene.source_bytes() + scene.map_bytes()) + 100 * pixels
+                          : 80 * pixels;
+  const double least =
+      kProgramBytes + work + (settings.refocus.empty() ? sources * scene.source_bytes() : 0);
+  settings.memory.require(
+      least, views_text(light_field.num_views(), light_field.width, light_field.height));
+  scene.keep(std::size_t(
+      std::clamp(sources + (settings.memory.bytes() - least) / scene.source_bytes(), 1.0, 24.0)));
+}
+
 void run(const Settings& settings, const RunControl& control) {
   const int chosen = int(!settings.pose.empty()) + int(!settings.path.empty()) +
                      int(!settings.leave_out.empty()) + int(!settings.refocus.empty());
@@ -267,6 +288,7 @@ void run(const Settings& settings, const RunControl& control) {
   Output output(settings);
   RenderScene scene(settings.result, settings.input, settings.min_confidence);
   output.set_bit_depth(scene.light_field().pixels->bit_depth());
+  fit_into_memory(settings, scene);
   if (!scene.rig().is_metric() && settings.refocus.empty())
     control.message(
         "focal length and view step aren't known: poses off the plane of the cameras "
@@ -324,6 +346,7 @@ Run render_command(CLI::App& app) {
                  "Leave out points that are less sure")
       ->check(zero_or_more())
       ->type_name("C");
+  settings->memory.add_to(app, "some 32 bytes per pixel of each of --sources, and 100 more");
   app.add_flag("--equal-weights", settings->equal_weights,
                "Mix the views that see a point alike, without view-dependent weights");
   app.add_flag("--json", settings->json, "Print gigaray.json to stdout");

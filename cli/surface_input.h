@@ -24,6 +24,9 @@ struct SurfaceInput {
   /// Of an output of the command.
   OutputRules rules(const OutputOption& output) const { return output.rules({result, input}); }
 
+  /// Bytes of the views that are kept in memory at once: `pixels` of a picture, so many views.
+  static double view_bytes(double pixels, int num_views);
+
   /// The chosen views with cameras in scene units. Tells when these are not known.
   DepthViews open(const RunControl& control) const;
 

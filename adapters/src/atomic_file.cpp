@@ -15,6 +15,7 @@
 
 #include "gigaray/adapters/atomic_output.h"
 #include "gigaray/error.h"
+#include "gigaray/scratch_file.h"
 #include "output_place.h"
 #include "partial_folder.h"
 #include "text.h"
@@ -93,7 +94,7 @@ struct AtomicFile::State {
   }
 
   void open_file() {
-    const fs::path folder = goes_through ? fs::temp_directory_path() : place.parent_path();
+    const fs::path folder = goes_through ? fs::path(temporary_folder()) : place.parent_path();
     if (rules) tidy_partials(folder);
     int descriptor = open_nameless(folder);
     while (descriptor < 0) {

@@ -18,6 +18,7 @@
 #include "gigaray/adapters/child_process.h"
 #include "gigaray/adapters/input_file.h"
 #include "gigaray/adapters/maps.h"
+#include "gigaray/scratch_file.h"
 
 namespace gigaray::baselines {
 namespace {
@@ -28,7 +29,7 @@ namespace fs = std::filesystem;
 class WorkFolder {
  public:
   WorkFolder() {
-    std::string pattern = (fs::temp_directory_path() / "gigaray-external-XXXXXX").string();
+    std::string pattern = temporary_folder() + "/gigaray-external-XXXXXX";
     if (!mkdtemp(pattern.data()))
       throw Error(ErrorCode::kIo,
                   pattern + ": can't be made: " + std::generic_category().message(errno));

@@ -111,8 +111,11 @@ class Reconstruction {
 Reconstruction reconstruct(const LightField& light_field, const DepthOptions& options,
                            const BackendChoice& backend, const RunControl& control);
 
-/// Memory and disk of reconstruct() with these options. Reads no pixel.
-Forecast forecast(const LightField& light_field, const DepthOptions& options);
+/// Memory and disk of reconstruct() with these options. Reads pictures only where the input does
+/// not state the range, which then is estimated as reconstruct() does. Throws what reconstruct()
+/// would throw before its work, so the least memory that will do is the same.
+Forecast forecast(const LightField& light_field, const DepthOptions& options,
+                  const BackendChoice& backend = {});
 
 /// Scores of one pixel: why it has the disparity that it has.
 struct ScoreCurve {
