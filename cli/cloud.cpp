@@ -33,7 +33,7 @@ Needs needs_of(const DepthViews& views) {
   // A view and the views that bear witness for it, twice, and maps of the one at work.
   const double reading = SurfaceInput::view_bytes(pixels, views.size()) + 200 * pixels;
   // Points of all views, in vectors that grow; those of a tile, which is no larger than 512 voxels.
-  constexpr double kPoint = 64, kTilePoint = 40, kTile = 512.0 * 512;
+  constexpr double kPoint = 52, kTilePoint = 40, kTile = 512.0 * 512;
   const double least_store = 32 << 20;
   return {
       kProgramBytes + reading + kPoint * pixels * views.size(),
@@ -111,7 +111,7 @@ Run cloud_command(CLI::App& app) {
       ->type_name("X")
       ->capture_default_str();
   settings->memory.add_to(app,
-                          "up to 64 bytes per pixel of all views; points that don't fit are kept "
+                          "up to 52 bytes per pixel of all views; points that don't fit are kept "
                           "in the folder for temporary files");
   app.add_flag("--json", settings->json, "Print the counts as JSON");
   return [settings](const RunControl& control) { run(*settings, control); };

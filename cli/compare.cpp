@@ -173,15 +173,34 @@ std::string machine() {
   return fmt::format("{} threads", std::thread::hardware_concurrency());
 }
 
-/// What the baselines take beside OpenCL, which is loaded by then: all views as floats, and costs
-/// of a view. Our own presets have a forecast of their own.
-void require_memory(const Settings& settings, const Contest& contest) {
+/// The options of one of our presets. range: to search, of views in a plane.
+DepthOptions options_of(const char* preset, const Settings& settings, const DepthOptions& resolved,
+                        const Contest& contest, const std::optional<DisparityRange>& range) {
+  DepthOptions options = preset_options(preset);
+  if (settings.run.hypotheses != 0) options.hypotheses = settings.run.hypotheses;
+  options.memory_bytes = resolved.memory_bytes;
+  options.work_folder = resolved.work_folder;
+  options.most_partners = resolved.most_partners;
+  options.disparity = contest.is_posed() ? resolved.disparity : range;
+  return options;
+}
+
+/// The baselines need, beside OpenCL, which is loaded by then, all views as floats and costs of a
+/// view; our own presets what their plan says.
+void require_memory(const Settings& settings, const DepthOptions& resolved, const Contest& contest,
+                    const std::optional<DisparityRange>& range) {
   const LightField& light_field = contest.light_field;
   const double pixels = double(light_field.width) * light_field.height;
   constexpr double kOpenClBytes = 100 * double(1 << 20);
+  double needed = kProgramBytes + kOpenClBytes + pixels * (18.0 * light_field.num_views() + 400);
+  for (const char* preset : {"auto", "paper"}) {
+    if (!is_chosen(settings, preset)) continue;
+    DepthOptions options = options_of(preset, settings, resolved, contest, range);
+    options.views = {contest.view};
+    needed = std::max(needed, least_memory(light_field, options));
+  }
   settings.run.budget().require(
-      kProgramBytes + kOpenClBytes + pixels * (18.0 * light_field.num_views() + 400),
-      views_text(light_field.num_views(), light_field.width, light_field.height));
+      needed, views_text(light_field.num_views(), light_field.width, light_field.height));
 }
 
 void run(const Settings& settings, const RunControl& control) {
@@ -200,19 +219,13 @@ void run(const Settings& settings, const RunControl& control) {
   contest.unit = baselines::disparity_of_inverse_depth(contest.light_field, contest.view);
   find_truth_for(contest, settings, control);
 
-  require_memory(settings, contest);
-
   // Ours first: it finds the range to search when nothing states it.
   std::optional<DisparityRange> range = range_known(contest, resolved.disparity);
+  require_memory(settings, resolved, contest, range);
   std::vector<Contestant> contestants;
   for (const char* preset : {"auto", "paper"}) {
     if (!is_chosen(settings, preset)) continue;
-    DepthOptions options = preset_options(preset);
-    if (settings.run.hypotheses != 0) options.hypotheses = settings.run.hypotheses;
-    options.memory_bytes = resolved.memory_bytes;
-    options.work_folder = resolved.work_folder;
-    options.most_partners = resolved.most_partners;
-    options.disparity = contest.is_posed() ? resolved.disparity : range;
+    const DepthOptions options = options_of(preset, settings, resolved, contest, range);
     contestants.push_back(run_ours(contest, options, settings.run.backend(), control));
     if (contest.is_posed()) contest.light_field.cameras = contestants.back().cameras;
     if (!range) range = contestants.back().searched;

@@ -34,7 +34,7 @@ void MemoryBudget::require(double needed, const std::string& what) const {
               fmt::format("memory of {:.0f} MiB is too little for {}; give it at least {:.0f} MiB "
                           "(--memory {:.2f})",
                           std::floor(mib(bytes())), what, std::ceil(mib(needed)),
-                          std::ceil(mib(needed) / 1024 * 100 + 0.5) / 100));
+                          std::ceil(mib(needed) / 1024 * 100) / 100));
 }
 
 std::string views_text(int num_views, int width, int height) {

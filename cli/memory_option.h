@@ -8,7 +8,7 @@
 namespace gigaray::cli {
 
 /// Bytes that the program takes before it holds a picture, its libraries included.
-inline constexpr double kProgramBytes = 85 * double(1 << 20);
+inline constexpr double kProgramBytes = 112 * double(1 << 20);
 
 /// --memory of a command that tells from sizes alone what it will take, and refuses before the work
 /// what doesn't fit.

@@ -61,9 +61,9 @@ KnownLens known_lens(const RectifyOptions& options) {
 /// later each is straightened by itself. What COLMAP takes is its own.
 void require_memory(const RectifyOptions& options, const RailPhotographs& photographs) {
   const double pixels = double(photographs.width) * photographs.height;
-  const double matching = 8e6 * double(photographs.pictures.size());
+  const double matching = 2e6 * double(photographs.pictures.size());
   options.memory.require(
-      kProgramBytes + 700 * pixels + matching,
+      kProgramBytes + 400 * pixels + matching,
       views_text(int(photographs.pictures.size()), photographs.width, photographs.height));
 }
 
@@ -298,7 +298,7 @@ Run rectify_command(CLI::App& app) {
                  "Mean distance of neighbouring cameras: depth will be in mm")
       ->type_name("MM");
   options->memory.add_to(app,
-                         "some 700 bytes per pixel of a photograph, and what COLMAP takes, which "
+                         "some 400 bytes per pixel of a photograph, and what COLMAP takes, which "
                          "has no limit");
   app.add_flag("--json", options->json, "Print JSON");
   return [options](const RunControl& control) { rectify(*options, control); };

@@ -264,11 +264,11 @@ void fit_into_memory(const Settings& settings, RenderScene& scene) {
   const LightField& light_field = scene.light_field();
   const double pixels = double(light_field.width) * light_field.height;
   const int sources = std::min(settings.sources, light_field.num_views());
-  // Copies of the sources, a map of what each gives, pictures and maps that are written; of
-  // --leave-out those of all ways to render.
-  const double work = settings.refocus.empty()
-                          ? sources * (scene.source_bytes() + scene.map_bytes()) + 100 * pixels
-                          : 80 * pixels;
+  // Copies of the sources, a map of what each gives, and what is made of them; --leave-out compares
+  // pictures of three ways to render.
+  const double made = pixels * (settings.leave_out.empty() ? 80 : 600);
+  const double work =
+      made + (settings.refocus.empty() ? sources * (scene.source_bytes() + scene.map_bytes()) : 0);
   const double least =
       kProgramBytes + work + (settings.refocus.empty() ? sources * scene.source_bytes() : 0);
   settings.memory.require(
@@ -346,7 +346,8 @@ Run render_command(CLI::App& app) {
                  "Leave out points that are less sure")
       ->check(zero_or_more())
       ->type_name("C");
-  settings->memory.add_to(app, "some 32 bytes per pixel of each of --sources, and 100 more");
+  settings->memory.add_to(
+      app, "some 32 bytes per pixel of each of --sources, and 80 more, with --leave-out 600");
   app.add_flag("--equal-weights", settings->equal_weights,
                "Mix the views that see a point alike, without view-dependent weights");
   app.add_flag("--json", settings->json, "Print gigaray.json to stdout");

@@ -93,7 +93,7 @@ TEST_F(Memory, EveryCommandHasABudget) {
         "cloud out -o out.ply", "mesh out -o mesh.ply", "mesh out -o mesh.ply --method front",
         "render out -o pictures --pose 0.5,0", "render out -o pictures --refocus 0.5",
         "render out -o pictures --leave-out centre", "evaluate out made",
-        "compare made -o compared --methods auto,block_matching --hypotheses 9",
+        "compare made -o compared --methods auto,bm --hypotheses 9",
         "rectify photos/images -o rail --poses order"})
     expect_budget(command);
 }

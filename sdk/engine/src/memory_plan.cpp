@@ -118,7 +118,8 @@ class Planner {
                              (40 + (support.slanted ? 24 : 0) + (options_.score.ray_mean ? 24 : 0));
     const double threads = std::min(4u, std::max(1u, std::thread::hardware_concurrency()));
     const double decoding = threads * 12.0 * light_field_.width * light_field_.height;
-    return kProcessBytes + kCompilerBytes + options_.memory_beside + copies * volume + std::max(view_maps, decoding);
+    return kProcessBytes + kCompilerBytes + options_.memory_beside + copies * volume +
+           std::max(view_maps, decoding);
   }
 
   std::optional<MemoryPlan> plan(double limit, double volume, bool in_files) const {
@@ -226,6 +227,11 @@ std::vector<LevelShape> level_shapes(int width, int height, bool fine_to_coarse)
     shapes.push_back(next);
   }
   return shapes;
+}
+
+double least_memory_limit(const LightField& light_field, const DepthOptions& options,
+                          const HypothesisRange& hypotheses) {
+  return Planner(light_field, options, hypotheses).least_limit();
 }
 
 MemoryPlan plan_memory(const LightField& light_field, const DepthOptions& options,

@@ -33,6 +33,10 @@ struct MemoryPlan {
 MemoryPlan plan_memory(const LightField& light_field, const DepthOptions& options,
                        const HypothesisRange& hypotheses);
 
+/// Least DepthOptions::memory_bytes that there is a plan for.
+double least_memory_limit(const LightField& light_field, const DepthOptions& options,
+                          const HypothesisRange& hypotheses);
+
 /// Sizes of all levels: halved, odd sizes rounded up, until a dimension would fall below 10 px.
 std::vector<LevelShape> level_shapes(int width, int height, bool fine_to_coarse);
 

@@ -117,6 +117,9 @@ Reconstruction reconstruct(const LightField& light_field, const DepthOptions& op
 Forecast forecast(const LightField& light_field, const DepthOptions& options,
                   const BackendChoice& backend = {});
 
+/// Least DepthOptions::memory_bytes that reconstruct() runs with, as its refusal names it.
+double least_memory(const LightField& light_field, const DepthOptions& options);
+
 /// Scores of one pixel: why it has the disparity that it has.
 struct ScoreCurve {
   std::vector<float> scores;  ///< One per hypothesis, as the winner is chosen from; −1: not tested
