@@ -226,7 +226,7 @@ Run info_command(CLI::App& app) {
     InputOptions& input = options->run.input;
     input.input = folder_of_photographs(input.input);
     if (is_plain_folder(input.input, input.open))
-      if (const std::string why = why_no_series(input.input); !why.empty())
+      if (const std::string why = why_no_series(input.input, input.open.memory_bytes); !why.empty())
         throw Error(ErrorCode::kBadInput,
                     why +
                         "; as photographs from anywhere they get cameras from `gigaray depth`, "

@@ -41,7 +41,7 @@ std::string record_of(const fs::path& photographs, const ColmapRunOptions& optio
 
 /// Why the pictures are no row; empty: they are, or may be.
 std::string why_no_row(const InputOptions& input, const RunControl& control) {
-  const std::string why = why_no_series(input.input);
+  const std::string why = why_no_series(input.input, input.open.memory_bytes);
   if (!why.empty()) return why;
   const auto across = displacement_across_rows(input.open_light_field(), control);
   if (!across || *across <= kMostAcrossRows) return {};

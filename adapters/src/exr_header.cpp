@@ -83,7 +83,7 @@ int count_channels(std::string_view list, const std::string& where) {
 ExrHeader parse_exr_header(std::string_view bytes, std::uint64_t file_size,
                            const std::string& where) {
   Reader file(bytes, where);
-  if (bytes.size() < 8 || file.get<std::uint32_t>() != kMagic) file.bad("is no OpenEXR file");
+  if (bytes.size() < 8 || file.get<std::uint32_t>() != kMagic) file.bad("is damaged or no OpenEXR file");
   const auto flags = file.get<std::uint32_t>();
   if (flags & (kDeep | kSeveralParts)) file.bad("has several parts or depths, a map has one");
 

@@ -160,9 +160,9 @@ class ImageSequenceReader : public Reader {
 
 }  // namespace
 
-std::string why_no_series(const fs::path& folder) {
+std::string why_no_series(const fs::path& folder, double memory_bytes) {
   const std::vector<fs::path> pictures = pictures_of(folder);
-  const double limit = opening_limit();
+  const double limit = opening_limit(memory_bytes);
   std::optional<PictureSpec> first;
   for (const fs::path& picture : pictures) {
     const PictureSpec spec = read_picture_spec(picture, Orientation::kApplied, limit);

@@ -160,6 +160,11 @@ void check_json(std::string_view text, const std::string& where, double memory_b
         break;
     }
   }
+  // So many take a few seconds to parse; a description of 100,000 photographs has half of them.
+  constexpr double kMostMarks = 8e6;
+  if (marks > kMostMarks)
+    throw Error(ErrorCode::kBadInput, where + ": holds " + std::to_string(std::uint64_t(marks)) +
+                                          " values; the limit is 8000000");
   hold_against_limit(where, "holds " + std::to_string(std::uint64_t(marks)) + " values",
                      kBytesPerMark * marks + double(text.size()), opening_limit(memory_bytes));
 }

@@ -94,7 +94,14 @@ double bytes_to_decode(const vips::VImage& image, const Decoder& decoder) {
 
 vips::VImage open_picture(const fs::path& path, double limit) {
   use_vips();
-  const InputFile file(path);
+  const InputFile file = [&] {
+    try {
+      return InputFile(path);
+    } catch (const Error& problem) {
+      // A picture that is missing is a fault of what names it.
+      throw Error(ErrorCode::kBadInput, problem.what());
+    }
+  }();
   const Decoder& decoder = decoder_of(file);
   vips::VImage image =
       vips::VImage::new_from_file(path.c_str(), vips::VImage::option()

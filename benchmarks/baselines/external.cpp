@@ -58,7 +58,9 @@ Description read_description(const fs::path& path) {
   const auto bad = [&](const std::string& what) {
     return Error(ErrorCode::kBadInput, path.string() + ": " + what);
   };
-  const auto root = nlohmann::json::parse(read_json_text(path), nullptr, false);
+  const std::string json = read_text(path);
+  check_json(json, path.string());
+  const auto root = nlohmann::json::parse(json, nullptr, false);
   if (!root.is_object()) throw bad("is not a JSON object");
   for (const auto& [key, value] : root.items()) {
     static const std::vector<std::string> known{"name",    "title",    "reference", "parameters",

@@ -184,7 +184,7 @@ TEST_F(HostileInput, TheCanvasOfAllPicturesIsHeldAgainstTheLimit) {
        "transform_matrix": [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0]]},
       {"file_path": "high.png", "w": 1, "h": 20000, "fl_x": 20000,
        "transform_matrix": [[1, 0, 0, 1], [0, 1, 0, 0], [0, 0, 1, 0]]}]})");
-  expect_bad({"wide.png", "20000×20000"}, [&] { open_light_field(folder, within(kLimit)); });
+  expect_bad({".png", "20000×20000"}, [&] { open_light_field(folder, within(kLimit)); });
 }
 
 TEST_F(HostileInput, DeepAndLargeJsonIsRefusedBeforeItIsParsed) {
