@@ -67,6 +67,25 @@ int rows_of_chunk(int compression) {
   }
 }
 
+/// Bytes of a value of a type that has always as many; 0: of another one.
+std::size_t fixed_size(std::string_view type) {
+  struct Size {
+    std::string_view type;
+    std::size_t bytes;
+  };
+  static constexpr Size kSizes[] = {{"box2f", 16},      {"box2i", 16},    {"chromaticities", 32},
+                                    {"compression", 1}, {"double", 8},    {"deepImageState", 1},
+                                    {"envmap", 1},      {"float", 4},     {"int", 4},
+                                    {"keycode", 28},    {"lineOrder", 1}, {"m33d", 72},
+                                    {"m33f", 36},       {"m44d", 128},    {"m44f", 64},
+                                    {"rational", 8},    {"tiledesc", 9},  {"timecode", 8},
+                                    {"v2d", 16},        {"v2f", 8},       {"v2i", 8},
+                                    {"v3d", 24},        {"v3f", 12},      {"v3i", 12}};
+  for (const Size& size : kSizes)
+    if (size.type == type) return size.bytes;
+  return 0;
+}
+
 int count_channels(std::string_view list, const std::string& where) {
   constexpr std::size_t kEntry = 16;  // type, linear, sampling
   Reader reader(list, where);
@@ -75,7 +94,21 @@ int count_channels(std::string_view list, const std::string& where) {
     reader.take(kEntry);
     ++count;
   }
+  if (reader.rest() > 0) reader.bad("is damaged in its header");
   return count;
+}
+
+/// The library reads values of some types without a look at their stated size: then what follows is
+/// something else to it than to this file.
+void check_size(std::string_view type, std::string_view value, const std::string& where) {
+  Reader reader(value, where);
+  if (const std::size_t size = fixed_size(type); size > 0 && value.size() != size)
+    reader.bad("is damaged in its header");
+  if (type == "chlist") count_channels(value, where);
+  if (type == "preview") {
+    const double width = reader.get<std::uint32_t>(), height = reader.get<std::uint32_t>();
+    if (4 * width * height != double(reader.rest())) reader.bad("is damaged in its header");
+  }
 }
 
 }  // namespace
@@ -83,7 +116,8 @@ int count_channels(std::string_view list, const std::string& where) {
 ExrHeader parse_exr_header(std::string_view bytes, std::uint64_t file_size,
                            const std::string& where) {
   Reader file(bytes, where);
-  if (bytes.size() < 8 || file.get<std::uint32_t>() != kMagic) file.bad("is damaged or no OpenEXR file");
+  if (bytes.size() < 8 || file.get<std::uint32_t>() != kMagic)
+    file.bad("is damaged or no OpenEXR file");
   const auto flags = file.get<std::uint32_t>();
   if (flags & (kDeep | kSeveralParts)) file.bad("has several parts or depths, a map has one");
 
@@ -97,10 +131,11 @@ ExrHeader parse_exr_header(std::string_view bytes, std::uint64_t file_size,
   std::optional<Tile> tile;
   int channels = 0, compression = 0;
   for (std::string_view name = file.word(); !name.empty(); name = file.word()) {
-    file.word();  // its type
+    const std::string_view type = file.word();
     const auto size = file.get<std::int32_t>();
     if (size < 0) file.bad("is damaged in its header");
     const std::string_view value = file.take(std::size_t(size));
+    check_size(type, value, where);
     Reader attribute(value, where);
     if (name == "dataWindow") window = attribute.get<Window>();
     if (name == "channels") channels = count_channels(value, where);

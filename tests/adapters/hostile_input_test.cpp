@@ -262,6 +262,9 @@ TEST_F(HostileInput, ExrHeadersAreHeldAgainstTheFileAndTheLimit) {
              [&] { parse_exr(with(window, 4 + 12, 899999), "a.exr", 1e12); });
   expect_bad({"a.exr", "900000×29", "limit"},
              [&] { parse_exr(with(window, 4 + 8, 899999), "a.exr", kLimit); });
+  // An attribute of another size than its type has, which the library would not look at.
+  expect_bad({"a.exr", "damaged"},
+             [&] { parse_exr(with("screenWindowWidth", 1 + 6, 5), "a.exr", kLimit); });
   // An attribute that is larger than the file.
   expect_bad({"a.exr", "cut short"},
              [&] { parse_exr(with(window, 0, INT32_MAX), "a.exr", kLimit); });
