@@ -197,7 +197,7 @@ void require_memory(const Settings& settings, const DepthOptions& resolved, cons
     if (!is_chosen(settings, preset)) continue;
     DepthOptions options = options_of(preset, settings, resolved, contest, range);
     options.views = {contest.view};
-    needed = std::max(needed, least_memory(light_field, options));
+    needed = std::max(needed, least_memory_bytes(light_field, options));
   }
   settings.run.budget().require(
       needed, views_text(light_field.num_views(), light_field.width, light_field.height));

@@ -11,7 +11,7 @@ namespace gigaray {
 
 /// What compiling kernels takes. Every plan leaves room for it, so that a run needs as much whether
 /// its kernels are cached or not; of the forecast it is a part only where they are not.
-inline constexpr double kCompilerBytes = 155 * double(1 << 20);
+inline constexpr double kCompilerBytes = 175 * double(1 << 20);
 
 /// Sizes of one level and how it is walked.
 struct LevelPlan {

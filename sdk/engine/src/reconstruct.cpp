@@ -306,7 +306,7 @@ Forecast forecast(const LightField& light_field, const DepthOptions& options,
   return plan_run(prepare(light_field, options, RunControl{}), backend).forecast;
 }
 
-double least_memory(const LightField& light_field, const DepthOptions& options) {
+double least_memory_bytes(const LightField& light_field, const DepthOptions& options) {
   const Prepared run = prepare(light_field, options, RunControl{});
   return least_memory_limit(run.light_field, run.options, run.hypotheses);
 }

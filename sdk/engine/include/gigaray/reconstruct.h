@@ -118,7 +118,7 @@ Forecast forecast(const LightField& light_field, const DepthOptions& options,
                   const BackendChoice& backend = {});
 
 /// Least DepthOptions::memory_bytes that reconstruct() runs with, as its refusal names it.
-double least_memory(const LightField& light_field, const DepthOptions& options);
+double least_memory_bytes(const LightField& light_field, const DepthOptions& options);
 
 /// Scores of one pixel: why it has the disparity that it has.
 struct ScoreCurve {
