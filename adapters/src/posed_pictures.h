@@ -29,6 +29,6 @@ struct PosedPicture {
 /// place_by_cameras. Reads headers only. Throws Error(kBadInput) naming the file, also when a view
 /// takes more than opening_limit(memory_bytes).
 LightField posed_light_field(std::vector<PosedPicture> pictures, const std::string& format,
-                             double memory_bytes);
+                             double memory_bytes = 0);
 
 }  // namespace gigaray
