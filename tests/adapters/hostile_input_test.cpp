@@ -335,7 +335,7 @@ class HostileSparseFile : public HostileInput {
  protected:
   std::filesystem::path container(int width, int height, const std::string& tuples,
                                   const std::string& difference) const {
-    SectionWriter file(folder / "a.grl");
+    SectionWriter file(AtomicFile(folder / "a.grl"));
     const auto add = [&](const std::string& bytes) {
       const Section section = file.add(bytes);
       return nlohmann::json{section.offset, section.size, section.checksum};
@@ -348,7 +348,7 @@ class HostileSparseFile : public HostileInput {
     root["tuples"].push_back(nlohmann::json::array({add(tuples), 0, 1}));
     for (int view = 0; view < 2; ++view)
       root["differences"].push_back(nlohmann::json::array({add(difference)}));
-    file.finish(compressed(root.dump()));
+    file.finish(compressed(root.dump()), RunControl());
     return folder / "a.grl";
   }
 };
@@ -383,10 +383,10 @@ TEST_F(HostileSparseFile, BlocksAreHeldAgainstTheirFramesAndTheLimit) {
 }
 
 TEST_F(HostileSparseFile, DirectoriesAreHeldAgainstTheLimit) {
-  SectionWriter file(folder / "a.grl");
+  SectionWriter file(AtomicFile(folder / "a.grl"));
   std::string text = "[0";
   for (int i = 0; i < 2'000'000; ++i) text += ",0";
-  file.finish(compressed(text + "]"));
+  file.finish(compressed(text + "]"), RunControl());
   expect_bad({"a.grl", "values", "limit"}, [&] { SparseFile(folder / "a.grl", kLimit); });
 }
 
