@@ -168,7 +168,9 @@ AtomicFile::AtomicFile(const fs::path& path, const OutputRules& rules,
                        std::initializer_list<const char*> extensions) {
   const std::string extension = lower(path.extension().string());
   std::error_code error;
-  if (!path.empty() && extensions.size() > 0 && !can_be_written_to(fs::status(path, error)) &&
+  const fs::file_status status = fs::status(path, error);
+  if (!path.empty() && extensions.size() > 0 && !can_be_written_to(status) &&
+      !fs::is_directory(status) &&
       std::find(extensions.begin(), extensions.end(), extension) == extensions.end()) {
     std::string list;
     for (const char* allowed : extensions)

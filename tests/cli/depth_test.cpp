@@ -258,7 +258,7 @@ TEST_F(DepthCommand, AnOlderResultIsReplacedAndNothingElse) {
   depth("-o out --views centre");
   EXPECT_FALSE(names_in("out").contains("view_000"));
   const std::string before = text_of("made/gigaray.json");
-  expect_refusal("depth made -o made", 2, "made", "not empty");
+  expect_refusal("depth made -o made", 2, "made", "is what is read too");
   EXPECT_EQ(text_of("made/gigaray.json"), before);
 }
 
