@@ -88,6 +88,8 @@ void check_folder_place(const fs::path& place, const fs::path& named, const Outp
 }
 
 void check_file_place(const fs::path& place, const fs::path& named, const OutputRules& rules) {
+  std::error_code error;
+  if (fs::is_directory(place, error)) refuse(named, "is a folder; name a file");
   for (const fs::path& input : rules.inputs)
     if (place == real_path(input)) refuse(named, "is what is read too; name another file");
 }

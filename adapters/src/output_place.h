@@ -18,7 +18,7 @@ std::filesystem::path output_place(const std::filesystem::path& path);
 /// Refuses a folder that the process is in, that is a mount point, or that overlaps an input.
 void check_folder_place(const std::filesystem::path& place, const std::filesystem::path& named,
                         const OutputRules& rules);
-/// Refuses a file that is an input.
+/// Refuses a folder, and a file that is an input.
 void check_file_place(const std::filesystem::path& place, const std::filesystem::path& named,
                       const OutputRules& rules);
 

@@ -126,8 +126,8 @@ std::optional<Ray> UnstructuredSampler::locate(int ref, int other, Ray ray) cons
       to.rotation * (from.rotation.transpose() * (direction - w * from.translation)) +
       w * to.translation;
   if (!(at.z() > kBehind)) return std::nullopt;
-  return Ray{to.focal_u * at.x() / at.z() + to.centre_u,
-             to.focal_v * at.y() / at.z() + to.centre_v, hypothesis(other, w / at.z())};
+  return Ray{to.focal_u * at.x() / at.z() + to.centre_u, to.focal_v * at.y() / at.z() + to.centre_v,
+             hypothesis(other, w / at.z())};
 }
 
 RowRange UnstructuredSampler::rows_needed(int ref, RowRange rows, HypothesisRange range,
@@ -198,9 +198,8 @@ std::vector<float> UnstructuredSampler::ray_table(int ref) const {
     for (int row = 0; row < 3; ++row)
       table.insert(table.end(), {float(turn(row, 0)), float(turn(row, 1)), float(turn(row, 2)),
                                  float(shift[row])});
-    table.insert(table.end(),
-                 {float(own.min * per_depth), float((own.max - own.min) * per_depth),
-                  float(theirs.min * per_depth), 0.0f});
+    table.insert(table.end(), {float(own.min * per_depth), float((own.max - own.min) * per_depth),
+                               float(theirs.min * per_depth), 0.0f});
   }
   return table;
 }

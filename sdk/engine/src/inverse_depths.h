@@ -9,8 +9,9 @@
 namespace gigaray {
 
 /// Gives every camera of an unstructured light field its range of inverse depths: that of the
-/// options, else its own, else one estimated from the pictures. Says what it found. Throws Error(kBadInput) when nothing can be estimated,
-/// Error(kInvalidArgument) for a range with negative inverse depths.
+/// options, else its own, else one estimated from the pictures. Says what it found. Throws
+/// Error(kBadInput) when nothing can be estimated, Error(kInvalidArgument) for a range with
+/// negative inverse depths.
 void set_inverse_depths(LightField& light_field, const DepthOptions& options,
                         const RunControl& control);
 

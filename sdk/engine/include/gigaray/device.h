@@ -60,8 +60,8 @@ KernelCacheInfo kernel_cache_info();
 
 /// Removes the compiled kernels; keeps the user's tuning. Programs in memory stay usable, but a
 /// kernel of a CPU device that has never run yet would not: call it before the first use of OpenCL.
-/// Throws Error(kIo) when something can't be removed, or, with nothing removed, when the kernels are
-/// in use by a process with OpenCL on PoCL, be it this one.
+/// Throws Error(kIo) when something can't be removed, or, with nothing removed, when the kernels
+/// are in use by a process with OpenCL on PoCL, be it this one.
 void clear_kernel_cache();
 
 /// Compile-time parameters of one kernel on one device.

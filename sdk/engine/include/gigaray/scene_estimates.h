@@ -32,11 +32,11 @@ struct RangeEstimate {
 /// Throws Error(kBadInput) when nothing can be matched; --disparity is the way out then.
 RangeEstimate estimate_disparity_range(const LightField& light_field, const RunControl& control);
 
-/// Gives the cameras of an unstructured light field that have none a range of inverse depths. A first
-/// bound comes from the cameras: what is seen by two of them at least. Within it the strongest edges
-/// of some views are matched, and every camera gets the range of the points that it sees. Without
-/// reading pixels the bound has to do. Throws Error(kBadInput) when cameras share no view or nothing
-/// matches; --disparity is the way out then.
+/// Gives the cameras of an unstructured light field that have none a range of inverse depths. A
+/// first bound comes from the cameras: what is seen by two of them at least. Within it the
+/// strongest edges of some views are matched, and every camera gets the range of the points that it
+/// sees. Without reading pixels the bound has to do. Throws Error(kBadInput) when cameras share no
+/// view or nothing matches; --disparity is the way out then.
 void estimate_inverse_depths(LightField& light_field, const RunControl& control, bool read_pixels);
 
 /// Noise of a light field, from how well views agree at their best hypothesis.
