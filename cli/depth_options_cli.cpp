@@ -68,6 +68,20 @@ BackendChoice DepthRunOptions::backend() const {
   return {"opencl", device};
 }
 
+namespace {
+
+/// Refuses what doesn't fit before whole pictures are read to find direction and range: the most
+/// that is known by then is what a run with two hypotheses takes.
+void refuse_what_never_fits(const LightField& light_field, DepthOptions options,
+                            const BackendChoice& backend) {
+  if (light_field.kind == LightFieldKind::kUnstructured) return;
+  if (!options.disparity) options.disparity = DisparityRange{0, 1};
+  if (options.hypotheses == 0) options.hypotheses = 2;
+  forecast(light_field, options, backend);
+}
+
+}  // namespace
+
 DepthOptions DepthRunOptions::resolve(LightField& light_field, const RunControl& control) const {
   DepthOptions options = preset_options(preset);
   if (!disparity.empty()) options.disparity = DisparityRange{disparity[0], disparity[1]};
@@ -77,6 +91,7 @@ DepthOptions DepthRunOptions::resolve(LightField& light_field, const RunControl&
   options.work_folder = work_folder;
   options.check();
   check(light_field);
+  refuse_what_never_fits(light_field, options, backend());
   if (const auto range = check_direction(light_field, control); range && !options.disparity) {
     options.disparity = range;
     control.message(

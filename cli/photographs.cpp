@@ -43,7 +43,15 @@ std::string record_of(const fs::path& photographs, const ColmapRunOptions& optio
 std::string why_no_row(const InputOptions& input, const RunControl& control) {
   const std::string why = why_no_series(input.input, input.open.memory_bytes);
   if (!why.empty()) return why;
-  const auto across = displacement_across_rows(input.open_light_field(), control);
+  const LightField light_field = input.open_light_field();
+  // Two whole pictures, and what is made of them to find features.
+  constexpr double kBytesPerPixel = 18;
+  hold_against_limit(
+      input.input.string(),
+      fmt::format("has pictures of {} × {} px", light_field.width, light_field.height),
+      kBytesPerPixel * light_field.width * light_field.height,
+      opening_limit(input.open.memory_bytes));
+  const auto across = displacement_across_rows(light_field, control);
   if (!across || *across <= kMostAcrossRows) return {};
   return fmt::format("{}: the pictures are no row, things move {:.1f} px across it",
                      input.input.string(), *across);

@@ -4,6 +4,7 @@
 // What a user may do wrong, and what may go wrong under a run: one line that names the file or the
 // option, the right exit code, and nothing that looks like a result.
 #include <signal.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 
 #include <opencv2/imgcodecs.hpp>
@@ -208,6 +209,20 @@ TEST_F(BadInput, AKilledRunLeavesNothingThatLooksLikeAResult) {
   EXPECT_EQ(run("depth made -o out --views centre").exit_code, 0);
   EXPECT_TRUE(fs::exists(folder / "out/disparity.pfm"));
   for (const std::string& name : names_in(".")) EXPECT_FALSE(name.starts_with(".")) << name;
+}
+
+TEST_F(BadInput, LargePicturesAreRefusedBeforeTheyAreLookedAt) {
+  for (const char* name : {"big/v1.jpg", "big/v2.jpg"}) save(name, 6000, 5000);
+  for (const std::string command : {"depth big -o out", "info big", "probe big --at 1 1"}) {
+    const Result result = run(command + " --memory 0.5");
+    const std::string text = result.out + result.err;
+    EXPECT_TRUE(text.find("give it at least") != std::string::npos ||
+                text.find("the limit is 512 MiB") != std::string::npos)
+        << command << ": " << text;
+    rusage usage{};
+    getrusage(RUSAGE_CHILDREN, &usage);
+    EXPECT_LT(usage.ru_maxrss, 512 * 1024) << command;
+  }
 }
 
 TEST_F(BadInput, ADamagedKernelCacheIsBuiltAgain) {
