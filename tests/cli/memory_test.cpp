@@ -19,8 +19,9 @@ using nlohmann::json;
 
 class Memory : public ProgramTest {
  protected:
-  void make(const std::string& options, const std::string& name = "made") const {
-    const Result result = run("synth planes -o " + name + " --width 120 --height 90 " + options);
+  void make(const std::string& options, const std::string& name = "made",
+            const std::string& size = "--width 120 --height 90") const {
+    const Result result = run("synth planes -o " + name + " " + size + " " + options);
     ASSERT_EQ(result.exit_code, 0) << result.err;
   }
   /// MiB that a line advises to give at least; −1: none.
@@ -105,7 +106,7 @@ TEST_F(Memory, LimitsOfTheProcessCount) {
 }
 
 TEST_F(Memory, WithoutTemporaryFolderOnlyRunsThatNeedOneStop) {
-  make("--views 9 --width 300 --height 200");
+  make("--views 9", "made", "--width 300 --height 200");
   const std::string none = "TMPDIR=/nonexistent";
   Result result = run("depth made -o out --hypotheses 9 --views 0", none);
   EXPECT_EQ(result.exit_code, 0) << result.err;

@@ -17,6 +17,9 @@ namespace {
 constexpr double kMiB = 1 << 20;
 /// The program itself, OpenCL without compiling, decoding buffers of small pictures.
 constexpr double kProcessBytes = 175 * kMiB;
+/// What compiling kernels takes, and the part of it that is free again when the kernels of a view
+/// are compiled.
+constexpr double kCompilerBytes = 175 * kMiB, kCompilerHeap = 80 * kMiB;
 /// Tuples are kept in memory with the stores: so many per pixel of a picture, as a rule.
 constexpr double kTuplesPerPixel = 2;
 /// Most bytes of one device buffer that every OpenCL driver we know grants.
@@ -111,6 +114,12 @@ class Planner {
   double fixed_bytes(double volume) const {
     const SupportOptions& support = options_.support;
     const double copies = 1 + (support.radius > 0) + support.scanline;
+    return kProcessBytes + compiler_bytes() + options_.memory_beside + copies * volume +
+           map_bytes();
+  }
+
+  double map_bytes() const {
+    const SupportOptions& support = options_.support;
     // Maps of one view: todo, bounds (twice with support), disparity, confidence, median, radiance,
     // slopes, means along rays (5 channels).
     const double pitch = StripMap<float>::pitch_for(light_field_.width);
@@ -118,8 +127,12 @@ class Planner {
                              (40 + (support.slanted ? 24 : 0) + (options_.score.ray_mean ? 24 : 0));
     const double threads = std::min(4u, std::max(1u, std::thread::hardware_concurrency()));
     const double decoding = threads * 12.0 * light_field_.width * light_field_.height;
-    return kProcessBytes + kCompilerBytes + options_.memory_beside + copies * volume +
-           std::max(view_maps, decoding);
+    return std::max(view_maps, decoding);
+  }
+
+  /// What the compiler frees is where the maps of a view are made later.
+  double compiler_bytes() const {
+    return kCompilerBytes - kCompilerHeap + std::max(0.0, kCompilerHeap - map_bytes());
   }
 
   std::optional<MemoryPlan> plan(double limit, double volume, bool in_files) const {
@@ -146,6 +159,7 @@ class Planner {
       result.levels.push_back(level);
     }
     result.forecast.memory_bytes = fixed + peak_band + stores;
+    result.compiler_bytes = compiler_bytes();
     result.forecast.disk_bytes = in_files ? store_bytes() : 0;
     const int first = result.levels.front().band_rows;
     result.forecast.bands = (light_field_.height + first - 1) / first;

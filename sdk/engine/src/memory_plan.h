@@ -9,10 +9,6 @@
 
 namespace gigaray {
 
-/// What compiling kernels takes. Every plan leaves room for it, so that a run needs as much whether
-/// its kernels are cached or not; of the forecast it is a part only where they are not.
-inline constexpr double kCompilerBytes = 175 * double(1 << 20);
-
 /// Sizes of one level and how it is walked.
 struct LevelPlan {
   LevelShape shape;
@@ -26,6 +22,9 @@ struct MemoryPlan {
   std::vector<LevelPlan> levels;
   std::string work_folder;  ///< Where rows are stored; empty: in memory.
   Forecast forecast;
+  /// The part of the forecast that compiling kernels takes. Every plan leaves room for it, so that
+  /// a run needs as much whether its kernels are cached or not.
+  double compiler_bytes = 0;
 };
 
 /// options: resolved (range, hypotheses). Throws Error(kOutOfMemory) when even one row at a time

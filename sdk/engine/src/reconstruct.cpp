@@ -150,8 +150,8 @@ std::string kernel_job(const Prepared& run, const BackendChoice& choice) {
 MemoryPlan plan_run(const Prepared& run, const BackendChoice& choice) {
   MemoryPlan plan = plan_memory(run.light_field, run.options, run.hypotheses);
   if (choice.backend == "reference" || opencl::kernels_are_ready(kernel_job(run, choice))) {
-    plan.forecast.memory_bytes -= kCompilerBytes;
-    plan.forecast.memory_all_bytes -= kCompilerBytes;
+    plan.forecast.memory_bytes -= plan.compiler_bytes;
+    plan.forecast.memory_all_bytes -= plan.compiler_bytes;
   }
   return plan;
 }
