@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "gigaray/camera_order.h"
+#include "memory_option.h"
 #include "numbers.h"
 
 namespace gigaray::cli {
@@ -70,14 +71,17 @@ BackendChoice DepthRunOptions::backend() const {
 
 namespace {
 
-/// Refuses what doesn't fit before whole pictures are read to find direction and range: the most
-/// that is known by then is what a run with two hypotheses takes.
-void refuse_what_never_fits(const LightField& light_field, DepthOptions options,
-                            const BackendChoice& backend) {
+/// Finding direction and range looks at whole pictures, before the plan of the run: refuses large
+/// ones that alone don't fit. Whether the run does is the plan's matter.
+void require_memory_to_look(const LightField& light_field, const DepthOptions& options) {
   if (light_field.kind == LightFieldKind::kUnstructured) return;
-  if (!options.disparity) options.disparity = DisparityRange{0, 1};
-  if (options.hypotheses == 0) options.hypotheses = 2;
-  forecast(light_field, options, backend);
+  // A decoded picture, its planes of colours and gradients.
+  const double picture = 26.0 * light_field.width * light_field.height;
+  constexpr double kLarge = 128 * double(1 << 20);
+  if (picture < kLarge) return;
+  MemoryBudget(options.memory_bytes / double(1 << 30))
+      .require(2 * kProgramBytes + picture,
+               views_text(light_field.num_views(), light_field.width, light_field.height));
 }
 
 }  // namespace
@@ -91,7 +95,7 @@ DepthOptions DepthRunOptions::resolve(LightField& light_field, const RunControl&
   options.work_folder = work_folder;
   options.check();
   check(light_field);
-  refuse_what_never_fits(light_field, options, backend());
+  require_memory_to_look(light_field, options);
   if (const auto range = check_direction(light_field, control); range && !options.disparity) {
     options.disparity = range;
     control.message(
