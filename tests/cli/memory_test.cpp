@@ -124,7 +124,7 @@ TEST_F(Memory, DamagedKernelsAreCompiledAgain) {
   const std::string depth = "depth made -o out --hypotheses 9 --views 0 --preset paper";
   ASSERT_EQ(run(depth, cache).exit_code, 0);
   int files = 0;
-  for (const auto& entry : fs::recursive_directory_iterator(folder / "cache/pocl")) {
+  for (const auto& entry : fs::recursive_directory_iterator(folder / "cache/gigaray-pocl")) {
     if (entry.path().extension() != ".so" && entry.path().extension() != ".bc") continue;
     // As a power cut leaves it: the size is there, the content never arrived.
     const std::string zeros(fs::file_size(entry.path()), '\0');
@@ -135,8 +135,8 @@ TEST_F(Memory, DamagedKernelsAreCompiledAgain) {
   const Result zeroed = run(depth, cache);
   EXPECT_EQ(zeroed.exit_code, 0) << zeroed.err;
   // A run that was killed recorded nothing of what it left.
-  fs::remove(folder / "cache/pocl.record");
-  for (const auto& entry : fs::recursive_directory_iterator(folder / "cache/pocl"))
+  fs::remove(folder / "cache/gigaray-pocl.record");
+  for (const auto& entry : fs::recursive_directory_iterator(folder / "cache/gigaray-pocl"))
     if (entry.path().extension() == ".so") fs::resize_file(entry.path(), 100);
   const Result killed = run(depth, cache);
   EXPECT_EQ(killed.exit_code, 0) << killed.err;
@@ -161,7 +161,7 @@ TEST_F(Memory, KernelsInUseAreNotCleared) {
   const std::string cache = "GIGARAY_CACHE_DIR=$PWD/cache";
   const pid_t child = start({"depth", "made", "-o", "out", "--hypotheses", "40"});
   ASSERT_GT(child, 0);
-  ASSERT_TRUE(wait_until([&] { return fs::exists(folder / "cache/programs"); }));
+  ASSERT_TRUE(wait_until([&] { return fs::exists(folder / "cache/gigaray-programs"); }));
   const Result clear = [&] {
     const int status = std::system(("cd '" + folder.string() + "' && " + cache + " '" +
                                     GIGARAY_PROGRAM + "' devices --clear-cache >.o2 2>.e2")

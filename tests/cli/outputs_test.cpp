@@ -155,6 +155,16 @@ TEST_F(Outputs, NamesThatAreNoneAreRefusedBeforeTheWork) {
   expect_refusal("synth planes -o " + longest + "n", 1, "too long");
 }
 
+TEST_F(Outputs, ACacheBesideFilesOfSomebodyElseLeavesThem) {
+  for (const char* name : {"cache/thesis.tex", "cache/programs/mine.bin", "cache/pocl/kcache/a.so"})
+    write(name, "mine");
+  const std::string cache = "GIGARAY_CACHE_DIR=$PWD/cache";
+  expect_done("depth lf --views centre --preset paper --hypotheses 8 -o computed", cache);
+  expect_done("devices --clear-cache", cache);
+  for (const char* name : {"cache/thesis.tex", "cache/programs/mine.bin", "cache/pocl/kcache/a.so"})
+    EXPECT_EQ(text_of(name), "mine") << name;
+}
+
 TEST_F(Outputs, NamesInLatin1AreFoundAgain) {
   fs::rename(folder / "lf", folder / "caf\xe9");
   for (const std::string view : {"000", "001", "002", "003", "004"})

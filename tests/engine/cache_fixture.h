@@ -67,8 +67,8 @@ class CacheFixture : public testing::Test {
   /// The files of compiled programs.
   std::vector<std::filesystem::path> program_files() const {
     std::vector<std::filesystem::path> files;
-    if (std::filesystem::exists(folder_ / "programs"))
-      for (const auto& entry : std::filesystem::directory_iterator(folder_ / "programs"))
+    if (std::filesystem::exists(folder_ / "gigaray-programs"))
+      for (const auto& entry : std::filesystem::directory_iterator(folder_ / "gigaray-programs"))
         files.push_back(entry.path());
     return files;
   }

@@ -32,7 +32,7 @@ class PoclCacheTest : public testing::Test {
   }
 
   const ScopedFolder scope_;
-  const fs::path folder_ = scope_.path / "pocl";
+  const fs::path folder_ = scope_.path / "gigaray-pocl";
 };
 
 TEST_F(PoclCacheTest, ProgramsThatAreNotAsRecordedAreRemoved) {

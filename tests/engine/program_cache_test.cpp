@@ -159,16 +159,16 @@ TEST_F(ProgramCache, InfoCountsAndClearRemoves) {
 TEST_F(ProgramCache, WhatARunUsesIsNotCleared) {
   auto device = Device::open();
   result(device);
-  std::filesystem::create_directory(folder_ / "pocl");
+  std::filesystem::create_directory(folder_ / "gigaray-pocl");
   {
-    const PoclCache other(folder_ / "pocl");
-    overwrite(folder_ / "pocl/kernel", "of the other run");
+    const PoclCache other(folder_ / "gigaray-pocl");
+    overwrite(folder_ / "gigaray-pocl/kernel", "of the other run");
     EXPECT_THROW(clear_kernel_cache(), Error);
-    EXPECT_TRUE(std::filesystem::exists(folder_ / "pocl/kernel"));
+    EXPECT_TRUE(std::filesystem::exists(folder_ / "gigaray-pocl/kernel"));
     EXPECT_EQ(program_files().size(), 1u);
   }
   clear_kernel_cache();
-  EXPECT_FALSE(std::filesystem::exists(folder_ / "pocl/kernel"));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "gigaray-pocl/kernel"));
   EXPECT_TRUE(program_files().empty());
 }
 

@@ -34,9 +34,9 @@ TEST_F(ReadyKernels, AreNotReadyWithoutACache) {
 
 TEST_F(ReadyKernels, AreForgottenWithDamagedPrograms) {
   note_ready_kernels("a");
-  std::filesystem::create_directories(folder_ / "pocl/AB/NEW");
-  overwrite(folder_ / "pocl/AB/NEW/program.bc", "of a run that was killed");
-  const PoclCache cache(folder_ / "pocl");
+  std::filesystem::create_directories(folder_ / "gigaray-pocl/AB/NEW");
+  overwrite(folder_ / "gigaray-pocl/AB/NEW/program.bc", "of a run that was killed");
+  const PoclCache cache(folder_ / "gigaray-pocl");
   EXPECT_FALSE(kernels_are_ready("a"));
 }
 

@@ -15,9 +15,9 @@ namespace gigaray::opencl {
 /// variables is set. Read from the environment at every call; the folder need not exist.
 std::optional<std::filesystem::path> cache_folder();
 
-inline constexpr std::string_view kProgramFolder = "programs";  ///< <hash>.bin files
-inline constexpr std::string_view kPoclFolder = "pocl";         ///< PoCL's own cache
-inline constexpr std::string_view kReadyFolder = "ready";       ///< what is compiled already
+inline constexpr std::string_view kProgramFolder = "gigaray-programs";  ///< <hash>.bin files
+inline constexpr std::string_view kPoclFolder = "gigaray-pocl";         ///< PoCL's own cache
+inline constexpr std::string_view kReadyFolder = "gigaray-ready";  ///< what is compiled already
 
 /// Writes a file beside `path` and renames it, so that a reader sees the old or the new content
 /// and nothing between; makes the folder. False when that is impossible, leaving no file behind.
