@@ -11,6 +11,9 @@
 #include "opencl/cache_folder.h"
 #include "opencl/content_hash.h"
 #include "opencl/text.h"
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 
 namespace gigaray::opencl {
 namespace {
@@ -157,6 +160,10 @@ Program build_program(Device& device, std::span<const SourcePart> parts,
     if (folder) {
       if (const auto binary = binary_of(program); !binary.empty()) save_binary(path, key, binary);
     }
+#ifdef __GLIBC__
+    // What the compiler took is needed for maps, not for pieces of its kind.
+    malloc_trim(0);
+#endif
   }
   device.programs().emplace(name, program);
   return program;

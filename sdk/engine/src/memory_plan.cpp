@@ -19,7 +19,7 @@ constexpr double kMiB = 1 << 20;
 constexpr double kProcessBytes = 175 * kMiB;
 /// What compiling kernels takes, and the part of it that is free again when the kernels of a view
 /// are compiled.
-constexpr double kCompilerBytes = 175 * kMiB, kCompilerHeap = 80 * kMiB;
+constexpr double kCompilerBytes = 175 * kMiB, kCompilerHeap = 35 * kMiB;
 /// Tuples are kept in memory with the stores: so many per pixel of a picture, as a rule.
 constexpr double kTuplesPerPixel = 2;
 /// Most bytes of one device buffer that every OpenCL driver we know grants.
@@ -124,7 +124,7 @@ class Planner {
     // slopes, means along rays (5 channels).
     const double pitch = StripMap<float>::pitch_for(light_field_.width);
     const double view_maps = pitch * light_field_.height *
-                             (40 + (support.slanted ? 24 : 0) + (options_.score.ray_mean ? 24 : 0));
+                             (27 + (support.slanted ? 24 : 0) + (options_.score.ray_mean ? 24 : 0));
     const double threads = std::min(4u, std::max(1u, std::thread::hardware_concurrency()));
     const double decoding = threads * 12.0 * light_field_.width * light_field_.height;
     return std::max(view_maps, decoding);
