@@ -37,9 +37,9 @@ struct DeviceInfo {
 /// All usable OpenCL devices over all platforms; empty when there are none. Thread-safe.
 ///
 /// The first use of OpenCL also gives PoCL a home: unless POCL_CACHE_DIR is set, its compiled
-/// kernels go to the folder "gigaray-pocl" in the kernel cache, or to a temporary folder when that can't be
-/// written or has no room (PoCL ends the process when it runs out of it). Without any such folder
-/// the devices of PoCL are left out, and select_device() says why.
+/// kernels go to the folder "gigaray-pocl" in the kernel cache, or to a temporary folder when that
+/// can't be written or has no room (PoCL ends the process when it runs out of it). Without any such
+/// folder the devices of PoCL are left out, and select_device() says why.
 std::vector<DeviceInfo> list_devices();
 
 /// The device that `selection` means: an index ("1"), a type ("cpu", "gpu"), or a part of a device
