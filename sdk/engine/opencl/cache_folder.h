@@ -27,7 +27,7 @@ bool write_file_atomically(const std::filesystem::path& path, std::string_view c
 std::optional<std::string> read_file(const std::filesystem::path& path);
 
 /// Why a folder, which is made where it is missing, can't take so many bytes (not writable, full, a
-/// quota or limit of this process), as one line; empty: it can.
+/// quota), as one line; empty: it can.
 std::string why_no_room(const std::filesystem::path& folder, std::uint64_t bytes);
 
 /// Makes PoCL keep its compiled kernels under cache_folder(), see list_devices(). Call before the
