@@ -98,15 +98,12 @@ void run(const Settings& settings, const RunControl& control) {
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 
   if (settings.json) {
-    const ordered_json root{{"format", "gigaray mesh"},
-                            {"version", 1},
-                            {"file", settings.output.string()},
-                            {"method", settings.method},
-                            {"filters", as_json(counts)},
-                            {"pieces_dropped", done.pieces_dropped},
-                            {"holes_filled", done.holes_filled},
-                            {"mesh", report_json(report)},
-                            {"seconds", seconds}};
+    const ordered_json root{
+        {"format", "gigaray mesh"},           {"version", 1},
+        {"file", settings.output.string()},   {"method", settings.method},
+        {"filters", as_json(counts)},         {"pieces_dropped", done.pieces_dropped},
+        {"holes_filled", done.holes_filled},  {"mesh", report_json(report)},
+        {"origin", origin_json(mesh.origin)}, {"seconds", seconds}};
     fmt::print("{}\n", root.dump(2));
     return;
   }
@@ -116,6 +113,7 @@ void run(const Settings& settings, const RunControl& control) {
                settings.cleaning.least_faces);
   if (settings.cleaning.hole_edges > 0) fmt::print("holes         {} filled\n", done.holes_filled);
   print_report(report);
+  print_origin(mesh.origin);
   fmt::print("{}: {} in {:.1f} s\n", settings.output.string(), settings.method, seconds);
 }
 
