@@ -102,7 +102,7 @@ ColmapModel read_colmap_model(const fs::path& folder) {
   ColmapModel model;
   const auto parse = [&](const std::string& part, auto parse_bytes) {
     const fs::path path = folder / (part + extension);
-    parse_bytes(read_bytes(path), path.string(), model);
+    parse_bytes(binary ? read_bytes(path) : read_text(path), path.string(), model);
   };
   parse("cameras", parser.cameras);
   parse("images", parser.images);

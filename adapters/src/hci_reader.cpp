@@ -80,7 +80,7 @@ class HciReader : public Reader {
     std::error_code ignored;
     std::optional<HciParameters> parameters;
     if (fs::exists(parameter_file, ignored))
-      parameters.emplace(read_bytes(parameter_file), parameter_file.string());
+      parameters.emplace(read_text(parameter_file), parameter_file.string());
     const int columns =
         parameters ? parameters->cameras("num_cams_x", kUsualCameras) : kUsualCameras;
     const int rows = parameters ? parameters->cameras("num_cams_y", kUsualCameras) : kUsualCameras;

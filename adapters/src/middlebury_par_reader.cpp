@@ -51,7 +51,7 @@ class MiddleburyParReader : public Reader {
                                             " files of cameras; name one of them, such as " +
                                             files.front().string());
     const fs::path& file = files.front();
-    return open_stated_views(parse_middlebury_par(read_bytes(file), file.string()), file,
+    return open_stated_views(parse_middlebury_par(read_text(file), file.string()), file,
                              {file.parent_path(), file.parent_path() / "images"}, options, kName);
   }
 };

@@ -27,7 +27,7 @@ class Parser {
 
   std::vector<Line> lines() const {
     std::vector<Line> lines;
-    std::istringstream stream(read_bytes(path_));
+    std::istringstream stream(read_text(path_));
     std::string text;
     for (int number = 1; std::getline(stream, text); ++number) {
       const auto words = split_words(text.substr(0, text.find('#')));

@@ -12,6 +12,48 @@
 #include "gigaray/error.h"
 
 namespace gigaray {
+namespace {
+
+void append_utf8(std::string& text, char32_t code) {
+  const auto tail = [&](int shift) { text += char(0x80 | ((code >> shift) & 0x3f)); };
+  if (code < 0x80) {
+    text += char(code);
+  } else if (code < 0x800) {
+    text += char(0xc0 | (code >> 6));
+    tail(0);
+  } else if (code < 0x10000) {
+    text += char(0xe0 | (code >> 12));
+    tail(6);
+    tail(0);
+  } else {
+    text += char(0xf0 | (code >> 18));
+    tail(12);
+    tail(6);
+    tail(0);
+  }
+}
+
+/// low, high: which of two bytes is the lower one. The mark before the text is passed over.
+std::string utf8_of_utf16(std::string_view bytes, std::size_t low, std::size_t high) {
+  constexpr char32_t kSurrogate = 0xd800, kSecond = 0xdc00, kEnd = 0xe000;
+  const auto unit = [&](std::size_t i) {
+    return char32_t(static_cast<unsigned char>(bytes[i + low])) |
+           char32_t(static_cast<unsigned char>(bytes[i + high])) << 8;
+  };
+  std::string text;
+  for (std::size_t i = 2; i + 1 < bytes.size(); i += 2) {
+    char32_t code = unit(i);
+    if (code >= kSurrogate && code < kSecond && i + 3 < bytes.size() && unit(i + 2) >= kSecond &&
+        unit(i + 2) < kEnd) {
+      code = 0x10000 + ((code - kSurrogate) << 10) + (unit(i + 2) - kSecond);
+      i += 2;
+    }
+    append_utf8(text, code);
+  }
+  return text;
+}
+
+}  // namespace
 
 std::optional<double> parse_number(std::string_view text) {
   if (text.starts_with('+')) text.remove_prefix(1);
@@ -32,6 +74,12 @@ std::string_view trimmed(std::string_view text) {
 std::string lower(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(),
                  [](char c) { return c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c; });
+  return text;
+}
+
+std::string upper(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](char c) { return c >= 'a' && c <= 'z' ? char(c - 'a' + 'A') : c; });
   return text;
 }
 
@@ -65,6 +113,14 @@ std::string read_bytes(const std::filesystem::path& path) {
   if (!file.is_open() || file.bad())
     throw Error(ErrorCode::kIo,
                 path.string() + ": can't be read (" + std::generic_category().message(errno) + ")");
+  return bytes;
+}
+
+std::string read_text(const std::filesystem::path& path) {
+  std::string bytes = read_bytes(path);
+  if (bytes.starts_with("\xef\xbb\xbf")) return bytes.substr(3);
+  if (bytes.starts_with("\xff\xfe")) return utf8_of_utf16(bytes, 0, 1);
+  if (bytes.starts_with("\xfe\xff")) return utf8_of_utf16(bytes, 1, 0);
   return bytes;
 }
 

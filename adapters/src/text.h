@@ -20,6 +20,9 @@ std::string_view trimmed(std::string_view text);
 /// Lower case of ASCII letters.
 std::string lower(std::string text);
 
+/// Upper case of ASCII letters.
+std::string upper(std::string text);
+
 /// Words between white space, commas and semicolons.
 std::vector<std::string> split_words(std::string_view line);
 
@@ -28,5 +31,9 @@ std::string in_quotes(std::string_view word);
 
 /// Everything in a file. Throws Error(kIo) naming it.
 std::string read_bytes(const std::filesystem::path& path);
+
+/// A file of text as UTF-8: a byte order mark is taken away, UTF-16 with one is converted. Throws
+/// Error(kIo) naming it.
+std::string read_text(const std::filesystem::path& path);
 
 }  // namespace gigaray
