@@ -10,6 +10,7 @@
 #include "colmap_folders.h"
 #include "mask_folder.h"
 #include "picture_folder.h"
+#include "picture_lookup.h"
 #include "posed_pictures.h"
 #include "readers.h"
 #include "view_names.h"
@@ -109,11 +110,11 @@ LightField open_model(FoundColmapModel found, const OpenOptions& options,
                     "overlap more");
   std::sort(images.begin(), images.end(),
             [](const auto& a, const auto& b) { return a.name < b.name; });
-  std::vector<std::string> names;
-  for (const ColmapModel::Image& image : images) names.push_back(image.name);
-  const fs::path folder = folder_of_pictures(
-      found.folder,
-      options.images.empty() ? folders_around(found.folder) : std::vector{options.images}, names);
+  std::vector<std::string> stated;
+  for (const ColmapModel::Image& image : images) stated.push_back(image.name);
+  const auto [place, names] = find_names(
+      options.images.empty() ? folders_around(found.folder) : std::vector{options.images}, stated);
+  const fs::path folder = folder_of_pictures(found.folder, {place}, names);
   const std::vector<std::string> views = view_names(names);
 
   const SparseDepths depths(found.model);

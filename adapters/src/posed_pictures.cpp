@@ -9,6 +9,7 @@
 #include <mutex>
 #include <set>
 
+#include "picture_alpha.h"
 #include "picture_files.h"
 #include "undistortion.h"
 
@@ -26,6 +27,7 @@ struct Source {
   fs::path file, mask;
   int width = 0, height = 0;
   std::shared_ptr<const Undistortion> undistortion;  // empty: a pinhole already
+  bool has_alpha = false;
 };
 
 class PosedPictures : public PixelSource {
@@ -59,10 +61,14 @@ class PosedPictures : public PixelSource {
  private:
   int most() const { return (1 << bit_depth_) - 1; }
 
-  /// 1 where the user's mask is not black, everywhere when there is none. Empty without masks.
+  /// 1 where the picture is opaque and the user's mask, if there is one, is not black. Empty
+  /// without masks.
   Mask mask_of(const Source& source) const {
     if (!has_mask_) return {};
-    Mask seen(source.width, source.height, 1, 1);
+    Mask seen =
+        source.has_alpha ? read_alpha(source.file) : Mask(source.width, source.height, 1, 1);
+    if (seen.width() != source.width || seen.height() != source.height)
+      bad(source.file, "has another size than when it was opened");
     if (source.mask.empty()) return seen;
     PictureSpec spec;
     const Image<std::uint16_t> mask = decode_picture(source.mask, Orientation::kIgnored, spec);
@@ -70,7 +76,7 @@ class PosedPictures : public PixelSource {
       bad(source.mask, "has another size than when it was opened");
     for (int v = 0; v < seen.height(); ++v)
       for (int u = 0; u < seen.width(); ++u)
-        seen(u, v) = mask(u, v, 0) != 0 || mask(u, v, 1) != 0 || mask(u, v, 2) != 0;
+        seen(u, v) &= mask(u, v, 0) != 0 || mask(u, v, 1) != 0 || mask(u, v, 2) != 0;
     return seen;
   }
 
@@ -188,13 +194,15 @@ LightField posed_light_field(std::vector<PosedPicture> pictures, const std::stri
   std::vector<Source> sources;
   std::vector<PictureSpec> specs;
   Undistortions undistortions;
-  int num_scaled = 0, num_undistorted = 0;
+  int num_scaled = 0, num_undistorted = 0, num_transparent = 0;
   bool masked = false, turned = false;
   for (const PosedPicture& picture : pictures) {
     check(picture.lens, picture.file.string());
     specs.push_back(read_picture_spec(picture.file, Orientation::kIgnored));
-    const PictureSpec& spec = specs.back();
-    Source source{picture.file, picture.mask, spec.width, spec.height, nullptr};
+    PictureSpec& spec = specs.back();
+    Source source{picture.file, picture.mask, spec.width, spec.height, nullptr, spec.has_alpha};
+    num_transparent += spec.has_alpha;
+    spec.has_alpha = false;  // it is not ignored here
     if (!is_scaled(picture.lens, source))
       bad(picture.file, "has " + size_text(spec.width, spec.height) +
                             " pixels, its camera was made for " +
@@ -224,6 +232,9 @@ LightField posed_light_field(std::vector<PosedPicture> pictures, const std::stri
   if (num_undistorted > 0)
     notes.push_back(std::to_string(num_undistorted) + of_all + " are undistorted (" +
                     undistortions.models() + ")");
+  if (num_transparent > 0)
+    notes.push_back("the alpha channel of " + std::to_string(num_transparent) + of_all +
+                    " masks what is transparent");
   if (num_scaled > 0)
     notes.push_back(std::to_string(num_scaled) + of_all +
                     " have another size than their cameras state; the cameras are scaled");
@@ -235,7 +246,8 @@ LightField posed_light_field(std::vector<PosedPicture> pictures, const std::stri
     notes.push_back(
         "the orientation noted in the pictures is ignored, as cameras are found "
         "without it");
-  const bool has_mask = masked || !one_size || !undistortions.fill_the_pictures();
+  const bool has_mask =
+      masked || num_transparent > 0 || !one_size || !undistortions.fill_the_pictures();
   light_field.pixels = std::make_shared<PosedPictures>(std::move(sources), light_field.width,
                                                        light_field.height, bit_depth, has_mask);
   place_by_cameras(light_field);
