@@ -114,6 +114,8 @@ std::string rig_text(const RigGeometry& rig) {
   if (rig.baseline) parts.push_back(fmt::format("view step {:.6g} {}", *rig.baseline, unit));
   if (rig.focus_distance)
     parts.push_back(fmt::format("focus at {:.6g} {}", *rig.focus_distance, unit));
+  if (const auto& point = rig.principal_point)
+    parts.push_back(fmt::format("optical axis at {:.6g} {:.6g} px", point->x(), point->y()));
   return parts.empty() ? "unknown" : fmt::format("{}", fmt::join(parts, ", "));
 }
 
@@ -185,6 +187,8 @@ void print_json(const LightField& light_field, const DepthForecast& depth) {
                  {"baseline", number(rig.baseline)},
                  {"focus_distance", number(rig.focus_distance)},
                  {"unit", rig.unit}};
+  if (const auto& point = rig.principal_point)
+    root["rig"]["principal_point_px"] = {point->x(), point->y()};
   const Forecast& forecast = depth.forecast;
   if (depth.refusal.empty())
     root["forecast"] = {{"memory_mib", to_mib(forecast.memory_bytes)},

@@ -27,8 +27,10 @@ std::vector<std::unique_ptr<const Reader>> all_readers() {
   all.push_back(colmap_reader());
   all.push_back(transforms_json_reader());
   all.push_back(llff_reader());
+  all.push_back(mvsnet_reader());
   all.push_back(middlebury_par_reader());
   all.push_back(middlebury_stereo_reader());
+  all.push_back(calibrated_pair_reader());
   all.push_back(strecha_reader());
   all.push_back(named_grid_reader());
   all.push_back(image_sequence_reader());

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Gigaray authors
-// Text: parameters.cfg of HCI scenes, Middlebury's par files, Strecha's .camera files.
+// Text: parameters.cfg of HCI scenes, Middlebury's par and calib files, Strecha's .camera files,
+// MVSNet's cam files.
 #include "fuzz.h"
 #include "hci_parameters.h"
 #include "stated_views.h"
+#include "stereo_calibration.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  const gigaray::fuzz::Input input(data, size, 3);
+  const gigaray::fuzz::Input input(data, size, 5);
   gigaray::fuzz::expect_result_or_one_line([&] {
     if (input.choice == 0) {
       const gigaray::HciParameters parameters(input.bytes, "fuzz");
@@ -16,6 +18,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     } else if (input.choice == 1) {
       for (const auto& view : gigaray::parse_middlebury_par(input.bytes, "fuzz"))
         GIGARAY_CHECK(!view.picture.empty() && view.rotation.allFinite());
+    } else if (input.choice == 3) {
+      const auto view = gigaray::parse_mvsnet_camera(input.bytes, "fuzz");
+      GIGARAY_CHECK(view.inverse_depth && view.translation.allFinite());
+    } else if (input.choice == 4) {
+      const auto pair = gigaray::parse_stereo_calibration(input.bytes, "fuzz");
+      GIGARAY_CHECK(pair.focal_px > 0 && pair.baseline > 0);
     } else {
       const auto view = gigaray::parse_strecha_camera(input.bytes, "fuzz");
       GIGARAY_CHECK(view.lens.width > 0 && view.translation.allFinite());

@@ -40,6 +40,9 @@ struct RigGeometry {
   std::optional<double> baseline;        ///< Scene units per view step.
   std::optional<double> focus_distance;  ///< Scene units; plane of zero disparity. Empty: infinity.
   std::string unit;                      ///< Name of the scene unit: "m", "mm"; empty if unknown.
+  /// (u, v) of the optical axis at s = t = 0, where disparity 0 is at infinity: that of every view.
+  /// Level-0 pixels. Empty: the middle of the picture.
+  std::optional<Eigen::Vector2d> principal_point = {};
 };
 
 /// Closed range of disparities, level-0 pixels per view step, signed. min < max.
