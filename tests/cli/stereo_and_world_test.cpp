@@ -23,8 +23,7 @@ class CalibratedPairCommands : public ProgramTest {
   /// A pair with exact truth, a part of which is not known.
   CalibratedPairCommands() {
     EXPECT_EQ(
-        run("synth planes -o made --width 96 --height 73 --views 2 --disparity 2 8").exit_code,
-        0);
+        run("synth planes -o made --width 96 --height 73 --views 2 --disparity 2 8").exit_code, 0);
     fs::create_directory(folder / "pair");
     fs::copy_file(folder / "made/view_000.png", folder / "pair/im0.png");
     fs::copy_file(folder / "made/view_001.png", folder / "pair/im1.png");
@@ -51,8 +50,20 @@ TEST_F(CalibratedPairCommands, DepthIsInMillimetres) {
       ASSERT_NEAR(depth.data()[i], 150 * 176.2 / (disparity.data()[i] + 2), 0.1);
     }
   EXPECT_GT(known, int(disparity.size() / 2));
-  const json rig = json::parse(text_of("out/gigaray.json")).at("rig");
+  const json rig = json::parse(text_of("out/gigaray.json")).at("light_field").at("rig");
   EXPECT_EQ(rig.at("principal_point_px"), json({49, 36}));
+  // A point of the mesh lies on the ray of a pixel: its optical axis is at (48, 36) of im0, which
+  // stands half a view step to the left.
+  ASSERT_EQ(run("mesh out -o out.ply --min-support 0").exit_code, 0);
+  const std::string text = text_of("out.ply");
+  const std::size_t body = text.find("end_header\n") + 11;
+  for (std::size_t i = 0; i < 500; ++i) {
+    float p[3];
+    std::memcpy(p, text.data() + body + 27 * i, sizeof p);
+    const double u = 150 * (p[0] + 176.2 / 2) / p[2] + 48, v = 150 * p[1] / p[2] + 36;
+    ASSERT_NEAR(u, std::round(u), 1e-2);
+    ASSERT_NEAR(v, std::round(v), 1e-2);
+  }
 }
 
 TEST_F(CalibratedPairCommands, TruthIsFoundUnderBothNamesAndInfinityIsUnknown) {
@@ -95,7 +106,9 @@ class WorldCoordinates : public ProgramTest {
     EXPECT_EQ(result.exit_code, 0) << result.err;
     return json::parse(result.out);
   }
-  static Eigen::Vector3d vector(const json& list) { return {list[0], list[1], list[2]}; }
+  static Eigen::Vector3d vector(const json& list) {
+    return Eigen::Vector3d(list[0].get<double>(), list[1].get<double>(), list[2].get<double>());
+  }
 
   /// Mean of the positions in a cloud, without its origin.
   Eigen::Vector3d mean_of(const std::string& name) const {
