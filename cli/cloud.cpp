@@ -4,12 +4,16 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <memory>
 
 #include "command.h"
 #include "gigaray/adapters/cloud_file.h"
+#include "gigaray/adapters/path_text.h"
+#include "memory_option.h"
 #include "numbers.h"
+#include "output_option.h"
 #include "surface_input.h"
 
 namespace gigaray::cli {
@@ -17,38 +21,59 @@ namespace {
 
 using nlohmann::ordered_json;
 
+/// Bytes of a run, and of one that keeps its points in a file as far as it can.
+struct Needs {
+  double all, least;
+};
+
+Needs needs_of(const DepthViews& views) {
+  double pixels = 0;
+  for (const Camera& camera : views.cameras)
+    pixels = std::max(pixels, double(camera.width) * camera.height);
+  // A view and the views that bear witness for it, twice, and maps of the one at work.
+  const double reading = SurfaceInput::view_bytes(pixels, views.size()) + 200 * pixels;
+  // Points of all views, in vectors that grow; those of a tile, which is no larger than 512 voxels.
+  constexpr double kPoint = 52, kTilePoint = 40, kTile = 512.0 * 512;
+  const double least_store = 32 << 20;
+  return {
+      kProgramBytes + reading + kPoint * pixels * views.size(),
+      kProgramBytes + reading + least_store + kTilePoint * std::min(pixels, kTile) * views.size()};
+}
+
 struct Settings {
   SurfaceInput input;
   CloudOptions cloud;
-  double memory_gib = 2;
-  std::filesystem::path output;
+  MemoryBudget memory;
+  OutputOption output;
   bool json = false;
 };
 
 void run(const Settings& settings, const RunControl& control) {
-  if (settings.output.extension() != ".ply")
-    throw Error(ErrorCode::kInvalidArgument,
-                settings.output.string() + ": a cloud is written as .ply");
+  CloudFile file(AtomicFile(settings.output.path, settings.input.rules(settings.output), {".ply"}));
   const auto begin = std::chrono::steady_clock::now();
   const DepthViews views = settings.input.open(control);
   CloudOptions options = settings.cloud;
   options.points = settings.input.points;
-  options.memory = std::size_t(settings.memory_gib * double(1 << 30));
+  const Needs needs = needs_of(views);
+  const Camera& camera = views.cameras.front();
+  settings.memory.require(std::min(needs.all, needs.least),
+                          views_text(views.size(), camera.width, camera.height));
+  // Vectors that grow take up to twice what is in them.
+  if (settings.memory.bytes() < needs.all)
+    options.memory = std::size_t((32 << 20) + (settings.memory.bytes() - needs.least) / 2);
 
-  CloudFile file(settings.output);
   const CloudReport report = settings.input.blamed([&] {
     return build_cloud(
         views, options, [&](const PointCloud& tile) { file.add(tile); }, control);
   });
-  control.throw_if_cancelled();
-  file.commit();
+  file.commit(control);
   const double seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 
   if (settings.json) {
     const ordered_json root{{"format", "gigaray cloud"},
                             {"version", 1},
-                            {"file", settings.output.string()},
+                            {"file", path_text(settings.output.path)},
                             {"filters", as_json(report.pixels)},
                             {"voxel", report.voxel},
                             {"merged", report.merged},
@@ -66,7 +91,7 @@ void run(const Settings& settings, const RunControl& control) {
              report.merged, settings.cloud.voxel > 0 ? "" : "pixel size, usually ", report.voxel);
   fmt::print("outliers      {} that stand alone\n", report.outliers);
   print_origin(report.origin);
-  fmt::print("{}: {} points in {:.1f} s\n", settings.output.string(), report.points, seconds);
+  fmt::print("{}: {} points in {:.1f} s\n", settings.output.path.string(), report.points, seconds);
 }
 
 }  // namespace
@@ -75,7 +100,7 @@ Run cloud_command(CLI::App& app) {
   app.description("One coloured, oriented point cloud of all views");
   const auto settings = std::make_shared<Settings>();
   settings->input.declare(app);
-  app.add_option("-o,--output", settings->output, "scene.ply")->type_name("FILE")->required();
+  settings->output.add_to(app, "scene.ply", "FILE")->required();
   app.add_option("--voxel", settings->cloud.voxel,
                  "Points in a cube of this size become one, scene units (default: the distance of "
                  "neighbouring pixels there, in steps of two)")
@@ -87,11 +112,9 @@ Run cloud_command(CLI::App& app) {
       ->check(zero_or_more())
       ->type_name("X")
       ->capture_default_str();
-  app.add_option("--memory", settings->memory_gib,
-                 "GiB of points in memory; more are kept in the folder for temporary files")
-      ->check(CLI::Range(0.001, 1e6))
-      ->type_name("GiB")
-      ->capture_default_str();
+  settings->memory.add_to(app,
+                          "up to 52 bytes per pixel of all views; points that don't fit are kept "
+                          "in the folder for temporary files");
   app.add_flag("--json", settings->json, "Print the counts as JSON");
   return [settings](const RunControl& control) { run(*settings, control); };
 }

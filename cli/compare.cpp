@@ -20,6 +20,7 @@
 #include "gigaray/adapters/atomic_output.h"
 #include "gigaray/adapters/maps.h"
 #include "numbers.h"
+#include "output_option.h"
 
 namespace gigaray::cli {
 namespace {
@@ -30,7 +31,8 @@ constexpr const char* kCompareFormat = "gigaray compare";
 
 struct Settings {
   DepthRunOptions run;
-  fs::path truth, output;
+  fs::path truth;
+  OutputOption output;
   std::vector<std::string> methods;  ///< empty: all
   std::vector<fs::path> externals;   ///< descriptions of programs
   int repeats = 1;
@@ -171,8 +173,42 @@ std::string machine() {
   return fmt::format("{} threads", std::thread::hardware_concurrency());
 }
 
+/// The options of one of our presets. range: to search, of views in a plane.
+DepthOptions options_of(const char* preset, const Settings& settings, const DepthOptions& resolved,
+                        const Contest& contest, const std::optional<DisparityRange>& range) {
+  DepthOptions options = preset_options(preset);
+  if (settings.run.hypotheses != 0) options.hypotheses = settings.run.hypotheses;
+  options.memory_bytes = resolved.memory_bytes;
+  options.work_folder = resolved.work_folder;
+  options.most_partners = resolved.most_partners;
+  options.disparity = contest.is_posed() ? resolved.disparity : range;
+  return options;
+}
+
+/// The baselines need, beside OpenCL, which is loaded by then, all views as floats and costs of a
+/// view; our own presets what their plan says.
+void require_memory(const Settings& settings, const DepthOptions& resolved, const Contest& contest,
+                    const std::optional<DisparityRange>& range) {
+  const LightField& light_field = contest.light_field;
+  const double pixels = double(light_field.width) * light_field.height;
+  constexpr double kOpenClBytes = 100 * double(1 << 20);
+  double needed = kProgramBytes + kOpenClBytes + pixels * (18.0 * light_field.num_views() + 400);
+  for (const char* preset : {"auto", "paper"}) {
+    if (!is_chosen(settings, preset)) continue;
+    DepthOptions options = options_of(preset, settings, resolved, contest, range);
+    options.views = {contest.view};
+    needed = std::max(needed, least_memory_bytes(light_field, options));
+  }
+  settings.run.budget().require(
+      needed, views_text(light_field.num_views(), light_field.width, light_field.height));
+}
+
 void run(const Settings& settings, const RunControl& control) {
-  AtomicFolder folder(settings.output, kCompareFormat, "compare.json");
+  std::vector<fs::path> inputs = settings.run.input.places();
+  inputs.push_back(settings.truth);
+  inputs.insert(inputs.end(), settings.externals.begin(), settings.externals.end());
+  AtomicFolder folder(settings.output.path, kCompareFormat,
+                      settings.output.rules(std::move(inputs)));
   const std::vector<baselines::Baseline> others = chosen_baselines(settings);
   Contest contest;
   contest.repeats = settings.repeats;
@@ -185,15 +221,11 @@ void run(const Settings& settings, const RunControl& control) {
 
   // Ours first: it finds the range to search when nothing states it.
   std::optional<DisparityRange> range = range_known(contest, resolved.disparity);
+  require_memory(settings, resolved, contest, range);
   std::vector<Contestant> contestants;
   for (const char* preset : {"auto", "paper"}) {
     if (!is_chosen(settings, preset)) continue;
-    DepthOptions options = preset_options(preset);
-    if (settings.run.hypotheses != 0) options.hypotheses = settings.run.hypotheses;
-    options.memory_bytes = resolved.memory_bytes;
-    options.work_folder = resolved.work_folder;
-    options.most_partners = resolved.most_partners;
-    options.disparity = contest.is_posed() ? resolved.disparity : range;
+    const DepthOptions options = options_of(preset, settings, resolved, contest, range);
     contestants.push_back(run_ours(contest, options, settings.run.backend(), control));
     if (contest.is_posed()) contest.light_field.cameras = contestants.back().cameras;
     if (!range) range = contestants.back().searched;
@@ -228,14 +260,14 @@ void run(const Settings& settings, const RunControl& control) {
   const std::string json = contest_json(contest, contestants, facts)
                                .dump(2, ' ', false, nlohmann::json::error_handler_t::replace);
   write_file_atomically(folder.path() / "compare.json", json + "\n");
-  folder.commit();
+  folder.commit(control);
   if (settings.json) {
     fmt::print("{}\n", json);
     return;
   }
   print_table(contest, contestants);
   for (const std::string& sentence : verdict(contest, contestants)) fmt::print("{}\n", sentence);
-  fmt::print("{}: the page\n", (settings.output / "index.html").string());
+  fmt::print("{}: the page\n", (settings.output.path / "index.html").string());
 }
 
 }  // namespace
@@ -250,11 +282,7 @@ Run compare_command(CLI::App& app) {
          "gt_disp_lowres.pfm or those of a Middlebury stereo pair; of photographs with cameras "
          "its true depth: a map, or a folder with VIEW.pfm (default: what INPUT has)")
       ->type_name("PATH");
-  app.add_option(
-         "-o,--output", settings->output,
-         "Folder for compare.json, compare.csv, index.html and the pictures; replaced if it "
-         "is an older comparison")
-      ->type_name("DIR")
+  settings->output.add_to(app, "Folder for compare.json, compare.csv, index.html and the pictures")
       ->required();
   app.add_option(
          "--methods", settings->methods,

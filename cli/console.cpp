@@ -11,7 +11,8 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <cstdio>
+
+#include "terminal.h"
 
 namespace gigaray::cli {
 namespace {
@@ -23,14 +24,17 @@ constexpr auto kRedraw = std::chrono::milliseconds(100);
 constexpr long kSameWishMs = 500;
 
 std::atomic<RunControl*> running{nullptr};
-volatile sig_atomic_t signalled = 0;
+volatile sig_atomic_t first = 0;  ///< the first signal
 timespec first_signal = {};
 
-extern "C" void on_signal(int signal) {
+extern "C" void on_signal(int signal, siginfo_t* info, void*) {
+  // The system sends it in the name of the process itself when a pipe is closed; the write fails
+  // too.
+  if (signal == SIGPIPE && info->si_pid == getpid()) return;
   timespec now = {};
   clock_gettime(CLOCK_MONOTONIC, &now);
-  if (!signalled) {
-    signalled = 1;
+  if (first == 0) {
+    first = signal;
     first_signal = now;
     if (RunControl* control = running.load()) control->cancel();
     return;
@@ -43,12 +47,16 @@ extern "C" void on_signal(int signal) {
   raise(signal);
 }
 
-void install_handlers(void (*handler)(int)) {
-  struct sigaction action = {};
-  action.sa_handler = handler;
-  action.sa_flags = SA_RESTART;  // files being written are not disturbed
+void install_handlers() {
+  ::signal(SIGXFSZ, SIG_IGN);
+  struct sigaction action = {}, present = {};
+  action.sa_sigaction = on_signal;
+  action.sa_flags = SA_RESTART | SA_SIGINFO;  // files being written are not disturbed
   sigemptyset(&action.sa_mask);
-  for (const int signal : {SIGINT, SIGTERM}) sigaction(signal, &action, nullptr);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGPIPE, SIGXCPU}) {
+    sigaction(signal, nullptr, &present);
+    if (signal != SIGHUP || present.sa_handler != SIG_IGN) sigaction(signal, &action, nullptr);
+  }
 }
 
 int terminal_width() {
@@ -71,11 +79,12 @@ Console::Console(RunControl& control) : is_terminal_(isatty(STDERR_FILENO) != 0)
     show_progress(stage, done, total);
   };
   control.on_message = [this](const std::string& text) { show_message(text); };
-  install_handlers(on_signal);
+  install_handlers();
 }
 
+int Console::signal_received() { return first; }
+
 Console::~Console() {
-  install_handlers(SIG_DFL);
   running = nullptr;
   clear_bar();
 }
@@ -86,7 +95,7 @@ void Console::show_progress(const std::string& stage, double done, double total)
   if (stage != stage_) {
     stage_ = stage;
     stage_start_ = now;
-    if (!is_terminal_) fmt::print(stderr, "{}\n", stage);
+    if (!is_terminal_) to_stderr(stage + "\n");
   } else if (done < total && now - last_drawn_ < kRedraw) {
     return;
   }
@@ -106,19 +115,18 @@ void Console::show_progress(const std::string& stage, double done, double total)
     line +=
         fmt::format("  {:.3g}/s  {} left", done / seconds, duration(seconds * (1 - share) / share));
   line.resize(std::min(line.size(), std::size_t(std::max(terminal_width() - 1, 1))));
-  fmt::print(stderr, "\r{}\x1b[K", line);
-  std::fflush(stderr);
+  to_stderr("\r" + line + "\x1b[K");
   bar_visible_ = true;
 }
 
 void Console::show_message(const std::string& text) {
   const std::lock_guard lock(mutex_);
   clear_bar();
-  fmt::print(stderr, "{}\n", text);
+  to_stderr(text + "\n");
 }
 
 void Console::clear_bar() {
-  if (bar_visible_) fmt::print(stderr, "\r\x1b[K");
+  if (bar_visible_) to_stderr("\r\x1b[K");
   bar_visible_ = false;
 }
 

@@ -13,13 +13,15 @@
 #include "gigaray/adapters/pictures.h"
 #include "gigaray/adapters/sparse_file.h"
 #include "gigaray/ray_sampler.h"
+#include "output_option.h"
 #include "view_list.h"
 
 namespace gigaray::cli {
 namespace {
 
 struct Settings {
-  std::filesystem::path input, output;
+  std::filesystem::path input;
+  OutputOption output;
   std::string views = "all";
   std::vector<int> rows;  ///< empty or BEGIN END
   bool depth = false;
@@ -36,6 +38,8 @@ void write_depth(const std::filesystem::path& folder, const FloatMap& disparity,
 }
 
 void run(const Settings& settings, const RunControl& control) {
+  AtomicFolder folder(settings.output.path, kLightFieldFormat,
+                      settings.output.rules({settings.input}));
   const SparseFile file(settings.input);
   LightField light_field = file.light_field();
   for (const std::string& note : light_field.notes) control.message(note);
@@ -49,7 +53,6 @@ void run(const Settings& settings, const RunControl& control) {
                             "the last row",
                             rows.begin, rows.end, light_field.height - 1));
 
-  AtomicFolder folder(settings.output, kLightFieldFormat);
   std::vector<std::string> files;
   std::vector<View> decoded;
   for (std::size_t i = 0; i < views.size(); ++i) {
@@ -64,10 +67,9 @@ void run(const Settings& settings, const RunControl& control) {
   light_field.kind = kind_from_positions(light_field.views);
   light_field.height = rows.size();
   write_light_field_json(folder.path() / "gigaray.json", light_field, files);
-  control.throw_if_cancelled();
-  folder.commit();
+  folder.commit(control);
   control.progress("decode", 1, 1);
-  fmt::print("{}: {} views\n", settings.output.string(), views.size());
+  fmt::print("{}: {} views\n", settings.output.path.string(), views.size());
 }
 
 }  // namespace
@@ -78,11 +80,7 @@ Run decode_command(CLI::App& app) {
   app.add_option("FILE", settings->input, "What `gigaray encode` wrote")
       ->type_name("FILE.grl")
       ->required();
-  app.add_option("-o,--output", settings->output,
-                 "Folder for the views as PNG, a light field again; replaced if it is an older "
-                 "result")
-      ->type_name("DIR")
-      ->required();
+  settings->output.add_to(app, "Folder for the views as PNG, a light field again")->required();
   app.add_option("--views", settings->views,
                  "all, centre, or a list of names, indices and ranges: 0,4-6,view_09")
       ->capture_default_str();

@@ -15,9 +15,11 @@
 #include "command.h"
 #include "depth_options_cli.h"
 #include "gigaray/adapters/depth_folder.h"
+#include "gigaray/adapters/path_text.h"
 #include "gigaray/metric_depth.h"
 #include "gigaray/reconstruct.h"
 #include "numbers.h"
+#include "output_option.h"
 #include "photographs.h"
 #include "view_list.h"
 
@@ -30,7 +32,7 @@ struct Settings {
   DepthRunOptions run;
   std::string views = "all";
   double min_confidence = 0;
-  std::filesystem::path output;
+  OutputOption output;
   std::vector<std::string> formats;
   bool json = false;
 };
@@ -124,18 +126,19 @@ const char* disparity_unit(const LightField& light_field) {
 
 void run(const Settings& settings, const RunControl& control) {
   const auto begin = std::chrono::steady_clock::now();
-  LightField light_field = open_or_find_cameras(settings.run.input, settings.output, control);
-  for (const std::string& note : light_field.notes) control.message(note);
-  DepthOptions options = settings.run.resolve(light_field, control);
-  options.views = parse_views(settings.views, light_field);
-
   std::set<MapFormat> formats;
   for (const std::string& name : settings.formats)
     formats.insert(name == "exr"      ? MapFormat::kExr
                    : name == "npy"    ? MapFormat::kNpy
                    : name == "colmap" ? MapFormat::kColmap
                                       : MapFormat::kPng16);
-  DepthFolder folder(settings.output, formats, light_field);
+  DepthFolder folder(settings.output.path, formats,
+                     settings.output.rules(settings.run.input.places()));
+  LightField light_field = open_or_find_cameras(settings.run.input, settings.output, control);
+  for (const std::string& note : light_field.notes) control.message(note);
+  DepthOptions options = settings.run.resolve(light_field, control);
+  options.views = parse_views(settings.views, light_field);
+  folder.describe(light_field);
 
   Reconstruction result = reconstruct(light_field, options, settings.run.backend(), control);
 
@@ -180,7 +183,7 @@ void run(const Settings& settings, const RunControl& control) {
   ordered_json root{{"format", kDepthFormat},
                     {"version", 1},
                     {"program", "gigaray " GIGARAY_VERSION},
-                    {"input", std::filesystem::absolute(settings.run.input.input).string()},
+                    {"input", path_text(std::filesystem::absolute(settings.run.input.input))},
                     {"light_field", light_field_json(light_field)},
                     {"options", options_json(result)},
                     {"unit", disparity_unit(light_field)},
@@ -201,13 +204,13 @@ void run(const Settings& settings, const RunControl& control) {
                     {"forecast_memory_mib", result.forecast().memory_bytes / (1 << 20)},
                     {"disk_mib", result.forecast().disk_bytes / (1 << 20)}};
   const std::string text = root.dump(2, ' ', false, ordered_json::error_handler_t::replace);
-  folder.commit(text);
+  folder.commit(text, control);
   control.progress("write", 1, 1);
   if (settings.json)
     fmt::print("{}\n", text);
   else
-    fmt::print("{}: {} views in {:.1f} s on {}\n", settings.output.string(), active.size(), seconds,
-               result.device());
+    fmt::print("{}: {} views in {:.1f} s on {}\n", settings.output.path.string(), active.size(),
+               seconds, result.device());
 }
 
 }  // namespace
@@ -219,11 +222,7 @@ Run depth_command(CLI::App& app) {
   app.add_flag("--find-cameras", settings->run.input.find_cameras,
                "Find the cameras of a folder of pictures with COLMAP even if they look like a row "
                "(default: when they don't)");
-  app.add_option("-o,--output", settings->output,
-                 "Folder for the result; replaced if it is an "
-                 "older result")
-      ->type_name("DIR")
-      ->required();
+  settings->output.add_to(app, "Folder for the result")->required();
   app.add_option("--views", settings->views,
                  "all, centre, or a list of names, indices and ranges: 0,4-6,view_09")
       ->capture_default_str();

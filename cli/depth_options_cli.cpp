@@ -15,10 +15,15 @@ void add_preset_option(CLI::App& app, std::string& preset) {
       ->capture_default_str();
 }
 
-void add_memory_option(CLI::App& app, double& gib) {
-  app.add_option("--memory", gib,
-                 "Most memory to use (default: three quarters of what is free); the "
-                 "result does not depend on it")
+void add_memory_option(CLI::App& app, double& gib, OpenOptions& open) {
+  app.add_option_function<double>(
+         "--memory",
+         [&gib, &open](double value) {
+           gib = value;
+           open.memory_bytes = value * double(1 << 30);
+         },
+         "Most memory to use (default: three quarters of what is free); the "
+         "result does not depend on it")
       ->check(above_zero())
       ->type_name("GiB");
 }
@@ -51,7 +56,7 @@ void DepthRunOptions::add_all_but_preset_to(CLI::App& app) {
                  "OpenCL device: index or part of its name, see `gigaray devices`; `reference` for "
                  "plain, slow C++")
       ->type_name("D");
-  add_memory_option(app, memory_gib);
+  add_memory_option(app, memory_gib, input.open);
   app.add_option("--work", work_folder,
                  "Folder for intermediate data that memory does not hold "
                  "(default: the folder for temporary files)")

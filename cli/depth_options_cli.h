@@ -7,12 +7,13 @@
 
 #include "gigaray/reconstruct.h"
 #include "input_options.h"
+#include "memory_option.h"
 
 namespace gigaray::cli {
 
 /// --preset and --memory, for the commands that have not all of DepthRunOptions.
 void add_preset_option(CLI::App& app, std::string& preset);
-void add_memory_option(CLI::App& app, double& gib);
+void add_memory_option(CLI::App& app, double& gib, OpenOptions& open);
 
 /// INPUT and the options that decide the result; shared by `depth`, `probe` and `compare`.
 struct DepthRunOptions {
@@ -29,6 +30,7 @@ struct DepthRunOptions {
   /// The same without --preset and --partners.
   void add_all_but_preset_to(CLI::App& app);
   BackendChoice backend() const;
+  MemoryBudget budget() const { return MemoryBudget(memory_gib); }
   /// The options of the engine. Checks the direction of travel, which may turn the axes of the
   /// light field around.
   DepthOptions resolve(LightField& light_field, const RunControl& control) const;

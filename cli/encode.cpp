@@ -12,7 +12,9 @@
 #include "gigaray/adapters/depth_result.h"
 #include "gigaray/adapters/sparse_file.h"
 #include "gigaray/reconstruct.h"
+#include "memory_option.h"
 #include "numbers.h"
+#include "output_option.h"
 
 namespace gigaray::cli {
 namespace {
@@ -22,7 +24,7 @@ using nlohmann::ordered_json;
 struct Settings {
   DepthRunOptions run;
   SparseFileOptions file;
-  std::filesystem::path output;
+  OutputOption output;
   std::filesystem::path depth;  ///< what `gigaray depth` wrote; empty: compute it
   bool json = false;
 };
@@ -62,9 +64,16 @@ void print_text(const SparseFileReport& report, double depth_seconds, double enc
   line("seconds", fmt::format("{:.1f} depth, {:.1f} encoding", depth_seconds, encode_seconds));
 }
 
+/// Slopes and tuples of all views, and the planes of the view that is coded. Without the program.
+double coding_bytes(const LightField& light_field) {
+  return double(light_field.width) * light_field.height * (13.0 * light_field.num_views() + 60);
+}
+
 DisparityOfView computed(const Settings& settings, LightField& light_field,
                          const RunControl& control) {
-  const DepthOptions options = settings.run.resolve(light_field, control);
+  DepthOptions options = settings.run.resolve(light_field, control);
+  // The estimates stay while the file is written.
+  options.memory_beside = coding_bytes(light_field);
   const auto depth = std::make_shared<Reconstruction>(
       reconstruct(light_field, options, settings.run.backend(), control));
   return [depth](int view) { return depth->view(view).disparity; };
@@ -98,6 +107,9 @@ void run(const Settings& settings, const RunControl& control) {
   const auto seconds_since = [](Clock::time_point begin) {
     return std::chrono::duration<double>(Clock::now() - begin).count();
   };
+  std::vector<std::filesystem::path> inputs = settings.run.input.places();
+  inputs.push_back(settings.depth);
+  AtomicFile file(settings.output.path, settings.output.rules(std::move(inputs)), {".grl"});
   LightField light_field = settings.run.input.open_light_field();
   for (const std::string& note : light_field.notes) control.message(note);
   if (light_field.kind == LightFieldKind::kUnstructured)
@@ -106,13 +118,18 @@ void run(const Settings& settings, const RunControl& control) {
                     ": a sparse light field holds 3D and 4D light fields, not photographs from "
                     "anywhere");
   const auto begin = Clock::now();
+  // Reading the depth takes less than computing it, which has a forecast of its own.
+  if (!settings.depth.empty())
+    settings.run.budget().require(
+        kProgramBytes + coding_bytes(light_field),
+        views_text(light_field.num_views(), light_field.width, light_field.height));
   const DisparityOfView disparity = settings.depth.empty()
                                         ? computed(settings, light_field, control)
                                         : read(settings, light_field);
   const double depth_seconds = seconds_since(begin);
   const auto encode_begin = Clock::now();
   const SparseFileReport report =
-      write_sparse_file(settings.output, light_field, disparity, settings.file, control);
+      write_sparse_file(std::move(file), light_field, disparity, settings.file, control);
   const double encode_seconds = seconds_since(encode_begin);
   if (settings.json)
     fmt::print("{}\n",
@@ -127,10 +144,7 @@ Run encode_command(CLI::App& app) {
   app.description("Light field to one compact file, lossless");
   auto settings = std::make_shared<Settings>();
   settings->run.add_to(app);
-  app.add_option("-o,--output", settings->output,
-                 "File for the result, .grl; replaced if it is there")
-      ->type_name("FILE.grl")
-      ->required();
+  settings->output.add_to(app, "File for the result", "FILE.grl")->required();
   app.add_option("--depth", settings->depth,
                  "What `gigaray depth INPUT` wrote, all views (default: computed now)")
       ->type_name("DIR");

@@ -17,11 +17,15 @@
 #include "gigaray/adapters/atomic_output.h"
 #include "gigaray/adapters/maps.h"
 #include "gigaray/adapters/pictures.h"
+#include "memory_option.h"
 
 namespace gigaray::cli {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr auto kPicture = {".png"};
+constexpr auto kTable = {".csv", ".txt"};
 
 struct EvaluateOptions {
   std::vector<fs::path> maps;  ///< The last one is the truth.
@@ -29,10 +33,20 @@ struct EvaluateOptions {
   std::vector<std::string> metrics{"hci"};
   std::vector<std::string> masks;
   ScoreChoice choice;
+  MemoryBudget memory;
   bool json = false;
   std::string csv;
   fs::path error_map;
   double error_range = 0.2;
+  bool replace = false;
+
+  bool writes_csv() const { return !csv.empty() && csv != "-"; }
+  /// What the files that are written may do; they appear together, at the end.
+  OutputRules rules() const {
+    std::vector<fs::path> inputs = maps;
+    for (const std::string& mask : masks) inputs.emplace_back(mask.substr(mask.find('=') + 1));
+    return {std::move(inputs), replace};
+  }
 };
 
 /// The last part of every path without a map's extension, or the whole paths where that would not
@@ -72,12 +86,26 @@ void check(const EvaluateOptions& options) {
     refuse("--mask is for one view; leave --views out");
   if (!(options.error_range > 0 && std::isfinite(options.error_range)))
     refuse(fmt::format("--error-range is {}; it must be above 0", options.error_range));
-  if (!options.error_map.empty() && options.error_map.extension() != ".png")
-    refuse("--error-map is '" + options.error_map.string() + "'; it must end in .png");
   if (options.json && options.csv == "-") refuse("--json and --csv - both print; leave one out");
 }
 
-std::vector<ScoreRow> score(const EvaluateOptions& options, const RunControl& control) {
+/// A map of floats has 4 bytes per pixel in its file, some 8 maps of the size are made of it.
+void require_memory(const EvaluateOptions& options, const ViewMaps& maps) {
+  double largest = 0;
+  std::vector<fs::path> files = maps.estimates;
+  files.push_back(maps.truth);
+  for (const fs::path& file : files) {
+    std::error_code error;
+    if (const auto bytes = fs::file_size(file, error); !error)
+      largest = std::max(largest, double(bytes));
+  }
+  options.memory.require(kProgramBytes + 8 * largest,
+                         fmt::format("maps of {:.3g} million pixels", largest / 4e6));
+}
+
+/// files: error maps are added.
+std::vector<ScoreRow> score(const EvaluateOptions& options, std::vector<AtomicFile>& files,
+                            const RunControl& control) {
   const std::vector<fs::path> estimates(options.maps.begin(), options.maps.end() - 1);
   const fs::path& truth_path = options.maps.back();
   const std::vector<std::string> labels = labels_of(estimates);
@@ -86,6 +114,7 @@ std::vector<ScoreRow> score(const EvaluateOptions& options, const RunControl& co
   std::vector<ScoreRow> rows;
   for (const ViewMaps& maps : views) {
     control.throw_if_cancelled();
+    require_memory(options, maps);
     const FloatMap truth = read_truth(maps.truth);
     SceneParts scene;
     // The masks of a scene are those of its centre view.
@@ -102,9 +131,9 @@ std::vector<ScoreRow> score(const EvaluateOptions& options, const RunControl& co
       if (options.error_map.empty()) continue;
       const fs::path path =
           is_one_map ? options.error_map : error_map_path(options.error_map, labels[i], maps.view);
-      write_png(path,
-                draw_error_map(estimate, truth, options.choice.hci_border(), options.error_range),
-                8);
+      files.emplace_back(path, options.rules(), kPicture);
+      files.back().write(png_bytes(
+          draw_error_map(estimate, truth, options.choice.hci_border(), options.error_range), 8));
     }
   }
   return rows;
@@ -117,15 +146,19 @@ void evaluate(EvaluateOptions options, const RunControl& control) {
   options.choice.hci = wants("hci");
   options.choice.middlebury = wants("middlebury");
   check(options);
-  const std::vector<ScoreRow> rows = score(options, control);
+  std::vector<AtomicFile> files;
+  if (options.writes_csv()) files.emplace_back(options.csv, options.rules(), kTable);
+  // The names of several are known once the views are.
+  if (!options.error_map.empty()) AtomicFile(options.error_map, options.rules(), kPicture);
+  const std::vector<ScoreRow> rows = score(options, files, control);
+  if (options.writes_csv()) files.front().write(scores_as_csv(rows));
+  for (AtomicFile& file : files) file.commit(control);
   if (options.csv == "-")
     fmt::print("{}", scores_as_csv(rows));
   else if (options.json)
     fmt::print("{}", scores_as_json(rows));
   else
     fmt::print("{}", scores_as_text(rows));
-  if (!options.csv.empty() && options.csv != "-")
-    write_file_atomically(options.csv, scores_as_csv(rows));
 }
 
 }  // namespace
@@ -153,6 +186,7 @@ Run evaluate_command(CLI::App& app) {
       ->allow_extra_args(false);
   app.add_option("--border", options->choice.border,
                  "Pixels left out on each side [15 for hci, 0 for middlebury]");
+  options->memory.add_to(app, "some 32 bytes per pixel of a map");
   app.add_flag("--json", options->json, "Print JSON");
   app.add_option("--csv", options->csv, "Write a CSV table, a line per map; - prints it")
       ->type_name("FILE|-");
@@ -160,6 +194,9 @@ Run evaluate_command(CLI::App& app) {
                  "Write the signed error as a picture: red too far, blue too near, black missing; "
                  "several get the name of estimate and view")
       ->type_name("FILE.png");
+  app.add_flag("--replace", options->replace,
+               "What is in the way and this program did not write is moved to NAME.old-1, in place "
+               "of an error");
   app.add_option("--error-range", options->error_range, "Error in px with the full colour")
       ->capture_default_str();
   return [options](const RunControl& control) { evaluate(*options, control); };

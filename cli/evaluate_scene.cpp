@@ -6,12 +6,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <initializer_list>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
 
+#include "gigaray/adapters/input_file.h"
 #include "gigaray/adapters/maps.h"
 #include "gigaray/adapters/pictures.h"
 #include "gigaray/adapters/reader.h"
@@ -66,8 +66,9 @@ void require_folder(const fs::path& path, const char* content) {
 /// Without the centre view `gigaray depth` puts another one at the top of its folder.
 void refuse_another_view(const fs::path& estimate) {
   if (!is_folder(estimate)) return;
-  std::ifstream file(estimate / "gigaray.json");
-  const auto root = nlohmann::json::parse(file, nullptr, false);
+  const fs::path file = estimate / "gigaray.json";
+  if (!is_there(file)) return;
+  const auto root = nlohmann::json::parse(read_json_text(file), nullptr, false);
   if (!root.is_object()) return;
   const auto name = [&](const char* key) {
     return root.contains(key) && root[key].is_string() ? root[key].get<std::string>() : "";

@@ -15,6 +15,7 @@
 #include "depth_options_cli.h"
 #include "gigaray/adapters/photographs.h"
 #include "gigaray/reconstruct.h"
+#include "view_list.h"
 
 namespace gigaray::cli {
 namespace {
@@ -24,24 +25,27 @@ constexpr int kMaxDrawn = 64;  // letters per axis of the drawn grid
 using nlohmann::ordered_json;
 
 struct InfoOptions {
-  InputOptions input;
-  std::string preset = "auto";
-  double memory_gib = 0;
+  DepthRunOptions run;  ///< as `depth` takes them, so that the forecast is its own
+  std::string views = "all";
   bool json = false;
 };
 
-/// What `gigaray depth` of all views will take, or why it can't run.
+/// What `gigaray depth` will take, or why it can't run.
 struct DepthForecast {
   Forecast forecast;
   std::string refusal;  ///< Empty: it can run.
 };
 
-DepthForecast forecast_depth(const LightField& light_field, const InfoOptions& options) {
-  DepthOptions depth = preset_options(options.preset);
-  depth.memory_bytes = options.memory_gib * double(1 << 30);
+DepthForecast forecast_depth(LightField light_field, const InfoOptions& options,
+                             const RunControl& control) {
+  RunControl silent;
+  silent.on_progress = [&](const auto&...) { control.throw_if_cancelled(); };
   try {
-    return {forecast(light_field, depth), ""};
+    DepthOptions depth = options.run.resolve(light_field, silent);
+    depth.views = parse_views(options.views, light_field);
+    return {forecast(light_field, depth, options.run.backend()), ""};
   } catch (const Error& error) {
+    if (error.code() == ErrorCode::kCancelled) throw;
     return {{}, error.what()};
   }
 }
@@ -218,21 +222,21 @@ void print_json(const LightField& light_field, const DepthForecast& depth) {
 Run info_command(CLI::App& app) {
   app.description("What an input is: kind, views, positions, rig, range; what depth of it takes");
   auto options = std::make_shared<InfoOptions>();
-  options->input.add_to(app);
-  add_preset_option(app, options->preset);
-  add_memory_option(app, options->memory_gib);
+  options->run.add_to(app);
+  app.add_option("--views", options->views, "Views that get depth, as `depth` takes them")
+      ->capture_default_str();
   app.add_flag("--json", options->json, "Print JSON");
-  return [options](const RunControl&) {
-    InputOptions& input = options->input;
+  return [options](const RunControl& control) {
+    InputOptions& input = options->run.input;
     input.input = folder_of_photographs(input.input);
     if (is_plain_folder(input.input, input.open))
-      if (const std::string why = why_no_series(input.input); !why.empty())
+      if (const std::string why = why_no_series(input.input, input.open.memory_bytes); !why.empty())
         throw Error(ErrorCode::kBadInput,
                     why +
                         "; as photographs from anywhere they get cameras from `gigaray depth`, "
                         "which runs COLMAP");
     const LightField light_field = input.open_light_field();
-    const DepthForecast depth = forecast_depth(light_field, *options);
+    const DepthForecast depth = forecast_depth(light_field, *options, control);
     if (options->json)
       print_json(light_field, depth);
     else

@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "gigaray/adapters/reader.h"
 
@@ -19,6 +20,10 @@ struct InputOptions {
   bool find_cameras = false;  ///< of a folder of pictures, with COLMAP, even if they form a row
 
   void add_to(CLI::App& app);
+  /// All that is read: no output may be there.
+  std::vector<std::filesystem::path> places() const {
+    return {input, open.positions, open.images, open.masks};
+  }
   LightField open_light_field() const { return open_light_field(input, open); }
   /// The same of another place, with the options that don't name one.
   LightField open_light_field(const std::filesystem::path& place, const OpenOptions& options) const;

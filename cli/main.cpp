@@ -3,16 +3,21 @@
 //
 // The program gigaray: a table of commands, one of which is run.
 #include <fmt/format.h>
+#include <signal.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cstdio>
 #include <exception>
+#include <iostream>
 #include <iterator>
 #include <new>
 #include <string>
+#include <system_error>
 
 #include "command.h"
 #include "console.h"
+#include "terminal.h"
 
 namespace gigaray::cli {
 
@@ -22,7 +27,7 @@ namespace gigaray::cli {
 
 namespace {
 
-enum ExitCode { kDone = 0, kFailed = 1, kWrongUsage = 2, kInterrupted = 130 };
+enum ExitCode { kDone = 0, kFailed = 1, kWrongUsage = 2, kSignal = 128 };
 
 struct Command {
   const char* name;
@@ -47,30 +52,36 @@ int exit_code(ErrorCode code) {
     case ErrorCode::kInvalidArgument:
       return kWrongUsage;
     case ErrorCode::kCancelled:
-      return kInterrupted;
+      return kSignal + (Console::signal_received() ? Console::signal_received() : SIGINT);
     default:
       return kFailed;
   }
 }
 
 int run(const std::string& command, const Run& what) {
-  const auto fail = [&](const char* message, int code) {
-    fmt::print(stderr, "gigaray {}: {}\n", command, one_line(message));
+  RunControl control;
+  const Console console(control);
+  const auto fail = [&](const std::string& message, int code) {
+    to_stderr(fmt::format("gigaray {}: {}\n", command, one_line(message)));
     return code;
   };
+  const auto fail_to_print = [&](int error) {
+    return fail(fmt::format("can't print to stdout ({}){}", std::generic_category().message(error),
+                            control.has_kept() ? "; the output itself is in place" : ""),
+                kFailed);
+  };
   try {
-    RunControl control;
-    const Console console(control);
     what(control);
+    // A full disk or a closed pipe shows when the buffer is written at last.
+    if (std::fflush(stdout) != 0 || std::ferror(stdout)) return fail_to_print(errno);
   } catch (const Error& error) {
     return fail(error.what(), exit_code(error.code()));
   } catch (const std::bad_alloc&) {
     return fail("out of memory; use a smaller input or a smaller --memory", kFailed);
   } catch (const std::exception& error) {
+    if (std::ferror(stdout)) return fail_to_print(errno);
     return fail(error.what(), kFailed);
   }
-  // A full disk or a closed pipe shows when the buffer is written at last.
-  if (std::fflush(stdout) != 0) return fail("the result can't be written to stdout", kFailed);
   return kDone;
 }
 
@@ -94,17 +105,18 @@ int main(int argc, char** argv) {
   };
   if (argc > 1 && argv[1][0] != '-' &&
       std::none_of(std::begin(kCommands), std::end(kCommands), is_named)) {
-    fmt::print(stderr, "gigaray: there is no command '{}' (see gigaray --help)\n", argv[1]);
+    to_stderr(fmt::format("gigaray: there is no command '{}' (see gigaray --help)\n", argv[1]));
     return kWrongUsage;
   }
   try {
     program.parse(argc, argv);
   } catch (const CLI::Success& success) {  // --help, --version
-    return program.exit(success);
+    program.exit(success);
+    return std::fflush(stdout) == 0 && std::cout.flush() ? kDone : kFailed;
   } catch (const CLI::ParseError& error) {
     std::string command = "gigaray";
     for (const CLI::App* app : program.get_subcommands()) command += " " + app->get_name();
-    fmt::print(stderr, "{}: {} (see {} --help)\n", command, one_line(error.what()), command);
+    to_stderr(fmt::format("{}: {} (see {} --help)\n", command, one_line(error.what()), command));
     return kWrongUsage;
   }
   return run(chosen, what);
@@ -113,4 +125,7 @@ int main(int argc, char** argv) {
 }  // namespace
 }  // namespace gigaray::cli
 
-int main(int argc, char** argv) { return gigaray::cli::main(argc, argv); }
+int main(int argc, char** argv) {
+  gigaray::cli::secure_descriptors();
+  return gigaray::cli::main(argc, argv);
+}

@@ -4,14 +4,18 @@
 
 #include <chrono>
 #include <memory>
+#include <utility>
 
 #include "command.h"
 #include "gigaray/adapters/mesh_file.h"
+#include "gigaray/adapters/path_text.h"
 #include "gigaray/meshing/cloud_mesh.h"
 #include "gigaray/meshing/grid_mesh.h"
 #include "gigaray/meshing/mesh_processing.h"
 #include "gigaray/meshing/mesh_report.h"
+#include "memory_option.h"
 #include "numbers.h"
+#include "output_option.h"
 #include "surface_input.h"
 
 namespace gigaray::cli {
@@ -19,14 +23,18 @@ namespace {
 
 using nlohmann::ordered_json;
 
+/// With what CGAL keeps of them for cleaning and the report.
+constexpr double kVertexBytes = 150, kFaceBytes = 150;
+
 struct Settings {
   SurfaceInput input;
-  std::filesystem::path output;
+  OutputOption output;
   std::string method = "grid";
   double voxel = 0;
   std::size_t most_points = 300'000;
   double trim = PoissonOptions{}.trim;
   MeshCleaning cleaning;
+  MemoryBudget memory;
   bool json = false;
 };
 
@@ -48,6 +56,27 @@ SurfaceMesh surface_of(const Settings& settings, const DepthViews& views, PointC
                          : advancing_front_mesh(cloud, {}, control);
   control.progress("surface", 1, 1);
   return mesh;
+}
+
+std::string text_of(const DepthViews& views) {
+  return views_text(views.size(), views.cameras.front().width, views.cameras.front().height);
+}
+
+/// Bytes until there is a surface.
+double bytes_before_surface(const Settings& settings, const DepthViews& views) {
+  double pixels = 0;
+  for (const Camera& camera : views.cameras)
+    pixels = std::max(pixels, double(camera.width) * camera.height);
+  const double reading = SurfaceInput::view_bytes(pixels, views.size()) + 200 * pixels;
+  // grid: a map of each view that has a part, and a surface of twice the pixels of a view.
+  if (settings.method == "grid")
+    return kProgramBytes + reading + pixels * (4.0 * views.size() + 2 * kVertexBytes);
+  return kProgramBytes + reading + 64 * pixels * views.size();
+}
+
+double bytes_of_surface(const SurfaceMesh& mesh) {
+  return kProgramBytes + kVertexBytes * double(mesh.positions.size()) +
+         kFaceBytes * double(mesh.faces.size());
 }
 
 ordered_json report_json(const MeshReport& report) {
@@ -78,14 +107,19 @@ void print_report(const MeshReport& report) {
 }
 
 void run(const Settings& settings, const RunControl& control) {
-  check_mesh_name(settings.output);
+  AtomicFile file(settings.output.path, settings.input.rules(settings.output),
+                  {".ply", ".obj", ".glb", ".stl"});
   const auto begin = std::chrono::steady_clock::now();
   const DepthViews views = settings.input.open(control);
+  settings.memory.require(bytes_before_surface(settings, views), text_of(views));
   PointCounts counts;
   MeshCleaned done;
-  const SurfaceMesh mesh =
-      cleaned(settings.input.blamed([&] { return surface_of(settings, views, counts, control); }),
-              settings.cleaning, &done);
+  SurfaceMesh surface =
+      settings.input.blamed([&] { return surface_of(settings, views, counts, control); });
+  // How large the surface is shows only now; cleaning and the report take most.
+  settings.memory.require(bytes_of_surface(surface),
+                          fmt::format("a surface of {} vertices", surface.positions.size()));
+  const SurfaceMesh mesh = cleaned(std::move(surface), settings.cleaning, &done);
   if (mesh.faces.empty())
     throw Error(
         ErrorCode::kBadInput,
@@ -93,17 +127,22 @@ void run(const Settings& settings, const RunControl& control) {
                     settings.input.result.string(), settings.cleaning.least_faces));
   control.throw_if_cancelled();
   const MeshReport report = report_of(mesh);
-  write_mesh(settings.output, mesh);
+  write_mesh(file, settings.output.path, mesh);
+  file.commit(control);
   const double seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 
   if (settings.json) {
-    const ordered_json root{
-        {"format", "gigaray mesh"},           {"version", 1},
-        {"file", settings.output.string()},   {"method", settings.method},
-        {"filters", as_json(counts)},         {"pieces_dropped", done.pieces_dropped},
-        {"holes_filled", done.holes_filled},  {"mesh", report_json(report)},
-        {"origin", origin_json(mesh.origin)}, {"seconds", seconds}};
+    const ordered_json root{{"format", "gigaray mesh"},
+                            {"version", 1},
+                            {"file", path_text(settings.output.path)},
+                            {"method", settings.method},
+                            {"filters", as_json(counts)},
+                            {"pieces_dropped", done.pieces_dropped},
+                            {"holes_filled", done.holes_filled},
+                            {"mesh", report_json(report)},
+                            {"origin", origin_json(mesh.origin)},
+                            {"seconds", seconds}};
     fmt::print("{}\n", root.dump(2));
     return;
   }
@@ -114,7 +153,7 @@ void run(const Settings& settings, const RunControl& control) {
   if (settings.cleaning.hole_edges > 0) fmt::print("holes         {} filled\n", done.holes_filled);
   print_report(report);
   print_origin(mesh.origin);
-  fmt::print("{}: {} in {:.1f} s\n", settings.output.string(), settings.method, seconds);
+  fmt::print("{}: {} in {:.1f} s\n", settings.output.path.string(), settings.method, seconds);
 }
 
 }  // namespace
@@ -123,9 +162,7 @@ Run mesh_command(CLI::App& app) {
   app.description("A surface of triangles, coloured, with a report of its shape");
   const auto settings = std::make_shared<Settings>();
   settings->input.declare(app);
-  app.add_option("-o,--output", settings->output, "scene.ply, .obj, .glb or .stl")
-      ->type_name("FILE")
-      ->required();
+  settings->output.add_to(app, "scene.ply, .obj, .glb or .stl", "FILE")->required();
   app.add_option("--method", settings->method,
                  "grid: depth maps triangulated on their pixels, cut where depth jumps; poisson: "
                  "smooth, closes gaps; front: triangles between the points of the cloud")
@@ -157,6 +194,9 @@ Run mesh_command(CLI::App& app) {
                  "Collapse edges until so many triangles are left")
       ->check(CLI::Range(std::size_t(4), std::size_t(4'000'000'000)))
       ->type_name("FACES");
+  settings->memory.add_to(app,
+                          "some 70 bytes per pixel of all views, and 450 per vertex of the "
+                          "surface, whose size shows only when it is there");
   app.add_flag("--json", settings->json, "Print counts and report as JSON");
   return [settings](const RunControl& control) { run(*settings, control); };
 }

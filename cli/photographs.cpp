@@ -4,11 +4,10 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
-#include <iterator>
 #include <string>
 
 #include "gigaray/adapters/atomic_output.h"
+#include "gigaray/adapters/input_file.h"
 #include "gigaray/adapters/photographs.h"
 
 namespace gigaray::cli {
@@ -40,14 +39,9 @@ std::string record_of(const fs::path& photographs, const ColmapRunOptions& optio
   return record;
 }
 
-std::string text_of(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
 /// Why the pictures are no row; empty: they are, or may be.
 std::string why_no_row(const InputOptions& input, const RunControl& control) {
-  const std::string why = why_no_series(input.input);
+  const std::string why = why_no_series(input.input, input.open.memory_bytes);
   if (!why.empty()) return why;
   const auto across = displacement_across_rows(input.open_light_field(), control);
   if (!across || *across <= kMostAcrossRows) return {};
@@ -58,25 +52,36 @@ std::string why_no_row(const InputOptions& input, const RunControl& control) {
 }  // namespace
 
 fs::path find_cameras(const fs::path& photographs, const ColmapRunOptions& options,
-                      const fs::path& output, const RunControl& control) {
-  fs::path work = fs::absolute(output).lexically_normal();
+                      const OutputOption& output, const RunControl& control) {
+  fs::path work = fs::absolute(output.path).lexically_normal();
   if (!work.has_filename()) work = work.parent_path();
   work += ".colmap";
   const std::string record = record_of(photographs, options);
-  if (text_of(work / kRecord) == record) {
+  if (fs::exists(work / kRecord) && read_text(work / kRecord) == record) {
     control.message(fmt::format("cameras as COLMAP found them before, in {}", work.string()));
     return work;
   }
-  // What an earlier run left behind: of other photographs, or unfinished.
-  if (fs::exists(work / kRecord) || fs::exists(work / "colmap.log")) fs::remove_all(work);
-  const ColmapRun run = run_colmap(photographs, work, options, control);
-  control.message(fmt::format("COLMAP found the cameras of {} of {} photographs (log: {})",
-                              run.num_registered, run.num_pictures, run.log.string()));
-  write_file_atomically(work / kRecord, record);
+  AtomicFolder folder(work, "gigaray cameras", output.rules({photographs, options.masks}));
+  try {
+    const ColmapRun run = run_colmap(photographs, folder.path(), options, control);
+    write_file_atomically(folder.path() / kRecord, record);
+    folder.commit();
+    control.message(fmt::format("COLMAP found the cameras of {} of {} photographs (log: {})",
+                                run.num_registered, run.num_pictures,
+                                (work / run.log.filename()).string()));
+  } catch (const Error& error) {
+    const std::string there = folder.path().string();
+    if (control.cancelled() || there.empty() || !fs::exists(folder.path() / kColmapLog)) throw;
+    std::string text = error.what();
+    if (const auto at = text.find(there); at != std::string::npos)
+      text.replace(at, there.size(), work.string());
+    folder.commit();  // without a record: nobody takes it for a finished run
+    throw Error(error.code(), text);
+  }
   return work;
 }
 
-LightField open_or_find_cameras(InputOptions input, const fs::path& output,
+LightField open_or_find_cameras(InputOptions input, const OutputOption& output,
                                 const RunControl& control) {
   input.input = folder_of_photographs(input.input);
   const bool states_row = input.open.direction != Travel::kAuto || input.open.lenslet.columns > 0;
@@ -90,6 +95,7 @@ LightField open_or_find_cameras(InputOptions input, const fs::path& output,
   OpenOptions open;
   open.images = input.input;
   open.masks = input.open.masks;
+  open.memory_bytes = input.open.memory_bytes;
   return input.open_light_field(work, open);
 }
 

@@ -18,6 +18,7 @@
 #include "gigaray/adapters/pictures.h"
 #include "gigaray/reconstruct.h"
 #include "gigaray/samplers/any_sampler.h"
+#include "output_option.h"
 #include "view_list.h"
 
 namespace gigaray::cli {
@@ -31,7 +32,7 @@ struct Settings {
   DepthRunOptions run;
   std::vector<int> at;  ///< U V
   std::string view = "centre";
-  std::filesystem::path output;
+  OutputOption output;
   bool decided = false;
   bool json = false;
 };
@@ -255,16 +256,17 @@ Image<std::uint16_t> scores_picture(const Finding& finding) {
 }
 
 void run(const Settings& settings, const RunControl& control) {
+  // An output place that can't be used shows before the work, not after.
+  std::optional<AtomicFolder> folder;
+  if (settings.output.is_given())
+    folder.emplace(settings.output.path, kProbeFormat,
+                   settings.output.rules(settings.run.input.places()));
   LightField light_field = settings.run.input.open_light_field();
   for (const std::string& note : light_field.notes) control.message(note);
   Finding finding;
   finding.view = parse_view(settings.view, light_field);
   finding.u = settings.at[0];
   finding.v = settings.at[1];
-  // An output place that can't be used shows before the work, not after.
-  std::optional<AtomicFolder> folder;
-  if (!settings.output.empty()) folder.emplace(settings.output, kProbeFormat);
-
   const DepthOptions options = settings.run.resolve(light_field, control);
   // With a weight by edges the confidence of a pixel is known in a whole run only.
   if (!options.winner.weigh_by_edge) finding.min_confidence = options.winner.min_confidence;
@@ -284,8 +286,7 @@ void run(const Settings& settings, const RunControl& control) {
     write_png(folder->path() / "samples.png", samples_picture(finding, light_field), 8);
     write_png(folder->path() / "scores.png", scores_picture(finding), 8);
     write_file_atomically(folder->path() / "gigaray.json", json + "\n");
-    control.throw_if_cancelled();
-    folder->commit();
+    folder->commit(control);
   }
   if (settings.json) {
     fmt::print("{}\n", json);
@@ -310,11 +311,9 @@ Run probe_command(CLI::App& app) {
       ->required();
   app.add_option("--view", settings->view, "Name or index of a view, or centre")
       ->capture_default_str();
-  app.add_option(
-         "-o,--output", settings->output,
-         "Folder for pictures: the epipolar-plane image, the colours that the views see, the "
-         "score curve; replaced if it is an older result")
-      ->type_name("DIR");
+  settings->output.add_to(app,
+                          "Folder for pictures: the epipolar-plane image, the colours that the "
+                          "views see, the score curve");
   app.add_flag(
       "--decided", settings->decided,
       "Compute the depth of all views too, as `depth` does, and tell which level and which "

@@ -18,6 +18,8 @@
 #include "gigaray/adapters/photographs.h"
 #include "gigaray/adapters/pictures.h"
 #include "gigaray/adapters/rail_rectification.h"
+#include "memory_option.h"
+#include "output_option.h"
 #include "photographs.h"
 
 namespace gigaray::cli {
@@ -27,12 +29,14 @@ namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
 struct RectifyOptions {
-  fs::path input, out;
+  fs::path input;
+  OutputOption out;
   std::optional<double> focal_px;
   std::vector<std::string> lens;  ///< model, then parameters
   std::string rotations = "best";
   std::string poses = "auto";
   std::optional<double> step_mm;
+  MemoryBudget memory;
   bool json = false;
 };
 
@@ -51,6 +55,16 @@ KnownLens known_lens(const RectifyOptions& options) {
     known.lens->params.push_back(value);
   }
   return known;
+}
+
+/// Features are looked for in one photograph after the other, in scales from twice its size down;
+/// later each is straightened by itself. What COLMAP takes is its own.
+void require_memory(const RectifyOptions& options, const RailPhotographs& photographs) {
+  const double pixels = double(photographs.width) * photographs.height;
+  const double matching = 2e6 * double(photographs.pictures.size());
+  options.memory.require(
+      kProgramBytes + 400 * pixels + matching,
+      views_text(int(photographs.pictures.size()), photographs.width, photographs.height));
 }
 
 RailRotations parse_rotations(const std::string& name) {
@@ -222,13 +236,14 @@ void print_text(const fs::path& out, const RectifiedRail& rail, const LightField
 void rectify(const RectifyOptions& options, const RunControl& control) {
   if (options.step_mm && !(*options.step_mm > 0))
     throw Error(ErrorCode::kInvalidArgument, "--rail-step must be more than 0 mm");
-  AtomicFolder out(options.out, kLightFieldFormat);
+  AtomicFolder out(options.out.path, kLightFieldFormat, options.out.rules({options.input}));
   const bool is_workspace = has_colmap_model(options.input);
   const fs::path images = options.input / "images";
   const fs::path photographs =
       is_workspace && fs::is_directory(images) ? images : folder_of_photographs(options.input);
   const KnownLens known = known_lens(options);
   const RailPhotographs in_order = open_rail_in_order(photographs, known);
+  require_memory(options, in_order);
   const RectifiedRail rail =
       options.poses == "order" ? calibrate(in_order, options, control)
       : is_workspace ? calibrate(with_colmap_cameras(in_order, options.input), options, control)
@@ -245,12 +260,11 @@ void rectify(const RectifyOptions& options, const RunControl& control) {
   const fs::path description = out.path() / "gigaray.json";
   write_light_field_json(description, light_field, files);
   add_report(description, report);
-  control.throw_if_cancelled();
-  out.commit();
+  out.commit(control);
   if (options.json)
     fmt::print("{}\n", report.dump(2));
   else
-    print_text(options.out, rail, light_field, vertical_after);
+    print_text(options.out.path, rail, light_field, vertical_after);
 }
 
 }  // namespace
@@ -261,7 +275,7 @@ Run rectify_command(CLI::App& app) {
   app.add_option("INPUT", options->input,
                  "Folder of photographs, numbered along the rail, or a COLMAP workspace")
       ->required();
-  app.add_option("-o,--output", options->out, "Folder to write")->required();
+  options->out.add_to(app, "Folder for the light field")->required();
   auto* focal = app.add_option("--focal", options->focal_px,
                                "Focal length, px; without it that of the EXIF data");
   app.add_option("--lens", options->lens,
@@ -283,6 +297,9 @@ Run rectify_command(CLI::App& app) {
   app.add_option("--rail-step", options->step_mm,
                  "Mean distance of neighbouring cameras: depth will be in mm")
       ->type_name("MM");
+  options->memory.add_to(app,
+                         "some 400 bytes per pixel of a photograph, and what COLMAP takes, which "
+                         "has no limit");
   app.add_flag("--json", options->json, "Print JSON");
   return [options](const RunControl& control) { rectify(*options, control); };
 }

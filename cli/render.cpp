@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The Gigaray authors
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -14,10 +15,13 @@
 #include "command.h"
 #include "gigaray/adapters/atomic_output.h"
 #include "gigaray/adapters/maps.h"
+#include "gigaray/adapters/path_text.h"
 #include "gigaray/adapters/pictures.h"
 #include "gigaray/picture_quality.h"
 #include "gigaray/refocus.h"
+#include "memory_option.h"
 #include "numbers.h"
+#include "output_option.h"
 #include "render_scene.h"
 #include "view_list.h"
 
@@ -29,7 +33,8 @@ using nlohmann::ordered_json;
 constexpr const char* kRenderFormat = "gigaray render";
 
 struct Settings {
-  std::filesystem::path result, output, input;
+  std::filesystem::path result, input;
+  OutputOption output;
   std::string pose, path, leave_out;
   std::vector<double> refocus;  ///< D [DU DV]
   std::string view = "centre";  ///< to refocus
@@ -37,6 +42,7 @@ struct Settings {
   int frames = 60;
   int sources = 8;
   double min_confidence = 0;
+  MemoryBudget memory;
   bool equal_weights = false;
   bool json = false;
 };
@@ -68,8 +74,11 @@ NovelViewOptions options_of(const Settings& settings) {
 
 class Output {
  public:
-  Output(const Settings& settings, int bit_depth)
-      : folder_(settings.output, kRenderFormat), bit_depth_(bit_depth) {}
+  explicit Output(const Settings& settings)
+      : folder_(settings.output.path, kRenderFormat,
+                settings.output.rules({settings.result, settings.input})) {}
+
+  void set_bit_depth(int bit_depth) { bit_depth_ = bit_depth; }
 
   void write(const std::string& name, const Image<std::uint16_t>& picture) {
     write_png(folder_.path() / name, picture, bit_depth_);
@@ -77,20 +86,20 @@ class Output {
   void write(const std::string& name, const FloatMap& map) {
     write_pfm(folder_.path() / name, map);
   }
-  void commit(const Settings& settings, ordered_json about) {
+  void commit(const Settings& settings, ordered_json about, const RunControl& control) {
     ordered_json root{{"format", kRenderFormat},
                       {"version", 1},
-                      {"result", std::filesystem::absolute(settings.result).string()}};
+                      {"result", path_text(std::filesystem::absolute(settings.result))}};
     root.update(about);
     text_ = root.dump(2, ' ', false, ordered_json::error_handler_t::replace);
     write_file_atomically(folder_.path() / "gigaray.json", text_ + "\n");
-    folder_.commit();
+    folder_.commit(control);
   }
   const std::string& text() const { return text_; }
 
  private:
   AtomicFolder folder_;
-  int bit_depth_;
+  int bit_depth_ = 8;
   std::string text_;
 };
 
@@ -116,26 +125,26 @@ std::vector<Camera> parse_path(const std::string& text, const RenderScene& scene
   return keys;
 }
 
-void render_pose(const Settings& settings, RenderScene& scene, const RunControl& control) {
+void render_pose(const Settings& settings, RenderScene& scene, Output& output,
+                 const RunControl& control) {
   const Camera camera = parse_pose(settings.pose, scene);
-  Output output(settings, scene.light_field().pixels->bit_depth());
   control.progress("render", 0, 1);
   const NovelView view = scene.render(camera, settings.sources, -1, options_of(settings), control);
   output.write("view.png", view.picture);
   output.write("inverse_depth.pfm", view.inverse_depth);
   const Frame frame{"view.png", camera, share(view.seen)};
-  output.commit(settings, {{"frames", to_json({frame})}});
+  output.commit(settings, {{"frames", to_json({frame})}}, control);
   if (settings.json)
     fmt::print("{}\n", output.text());
   else
-    fmt::print("{}: view.png, {:.2f} % of it seen by a source\n", settings.output.string(),
+    fmt::print("{}: view.png, {:.2f} % of it seen by a source\n", settings.output.path.string(),
                100 * frame.seen);
 }
 
-void render_path(const Settings& settings, RenderScene& scene, const RunControl& control) {
+void render_path(const Settings& settings, RenderScene& scene, Output& output,
+                 const RunControl& control) {
   const std::vector<Camera> cameras =
       cameras_along(parse_path(settings.path, scene), settings.frames);
-  Output output(settings, scene.light_field().pixels->bit_depth());
   std::vector<Frame> frames;
   for (std::size_t i = 0; i < cameras.size(); ++i) {
     control.progress("render", double(i), double(cameras.size()));
@@ -144,11 +153,11 @@ void render_path(const Settings& settings, RenderScene& scene, const RunControl&
     frames.push_back({fmt::format("frame_{:05}.png", i), cameras[i], share(view.seen)});
     output.write(frames.back().file, view.picture);
   }
-  output.commit(settings, {{"frames", to_json(frames)}});
+  output.commit(settings, {{"frames", to_json(frames)}}, control);
   if (settings.json)
     fmt::print("{}\n", output.text());
   else
-    fmt::print("{}: {} frames, frame_00000.png …\n", settings.output.string(), frames.size());
+    fmt::print("{}: {} frames, frame_00000.png …\n", settings.output.path.string(), frames.size());
 }
 
 /// The two nearest views, the nearer one counting more; no depth.
@@ -173,7 +182,8 @@ Image<std::uint16_t> blend_of_nearest(RenderScene& scene, const Camera& camera, 
 }
 
 /// Renders a view that is there without it and says how alike the two are.
-void leave_one_out(const Settings& settings, RenderScene& scene, const RunControl& control) {
+void leave_one_out(const Settings& settings, RenderScene& scene, Output& output,
+                   const RunControl& control) {
   const int index = scene.find(settings.leave_out);
   RealView real;
   int exclude = -1;
@@ -188,7 +198,6 @@ void leave_one_out(const Settings& settings, RenderScene& scene, const RunContro
         "its picture had a part in the depth of the others; `depth --without` keeps it out");
   }
   const int bit_depth = scene.light_field().pixels->bit_depth();
-  Output output(settings, bit_depth);
   control.progress("render", 0, 1);
   const NovelView view =
       scene.render(real.camera, settings.sources, exclude, NovelViewOptions(), control);
@@ -216,10 +225,12 @@ void leave_one_out(const Settings& settings, RenderScene& scene, const RunContro
   ordered_json qualities = ordered_json::object();
   for (const Score& score : scores)
     qualities[score.name] = {{"psnr", score.quality.psnr}, {"ssim", score.quality.ssim}};
-  output.commit(settings, {{"left_out", settings.leave_out},
-                           {"took_part_in_depth", exclude >= 0},
-                           {"seen", share(view.seen)},
-                           {"quality", qualities}});
+  output.commit(settings,
+                {{"left_out", settings.leave_out},
+                 {"took_part_in_depth", exclude >= 0},
+                 {"seen", share(view.seen)},
+                 {"quality", qualities}},
+                control);
   if (settings.json) {
     fmt::print("{}\n", output.text());
     return;
@@ -229,21 +240,41 @@ void leave_one_out(const Settings& settings, RenderScene& scene, const RunContro
                score.quality.ssim);
 }
 
-void render_refocused(const Settings& settings, RenderScene& scene, const RunControl& control) {
+void render_refocused(const Settings& settings, RenderScene& scene, Output& output,
+                      const RunControl& control) {
   const int view = parse_view(settings.view, scene.light_field());
   FocalPlane plane{settings.refocus[0]};
   if (settings.refocus.size() == 3) {
     plane.along_u = settings.refocus[1];
     plane.along_v = settings.refocus[2];
   }
-  Output output(settings, scene.light_field().pixels->bit_depth());
   output.write("view.png", refocus(scene.light_field(), view, plane, settings.aperture, control));
-  output.commit(settings, {{"view", scene.light_field().views[view].name},
-                           {"focus", {plane.value, plane.along_u, plane.along_v}}});
+  output.commit(settings,
+                {{"view", scene.light_field().views[view].name},
+                 {"focus", {plane.value, plane.along_u, plane.along_v}}},
+                control);
   if (settings.json)
     fmt::print("{}\n", output.text());
   else
-    fmt::print("{}: view.png\n", settings.output.string());
+    fmt::print("{}: view.png\n", settings.output.path.string());
+}
+
+/// Refuses what doesn't fit, and keeps as many views as do.
+void fit_into_memory(const Settings& settings, RenderScene& scene) {
+  const LightField& light_field = scene.light_field();
+  const double pixels = double(light_field.width) * light_field.height;
+  const int sources = std::min(settings.sources, light_field.num_views());
+  // Copies of the sources, a map of what each gives, and what is made of them; --leave-out compares
+  // pictures of three ways to render.
+  const double made = pixels * (settings.leave_out.empty() ? 80 : 600);
+  const double work =
+      made + (settings.refocus.empty() ? sources * (scene.source_bytes() + scene.map_bytes()) : 0);
+  const double least =
+      kProgramBytes + work + (settings.refocus.empty() ? sources * scene.source_bytes() : 0);
+  settings.memory.require(
+      least, views_text(light_field.num_views(), light_field.width, light_field.height));
+  scene.keep(std::size_t(
+      std::clamp(sources + (settings.memory.bytes() - least) / scene.source_bytes(), 1.0, 24.0)));
 }
 
 void run(const Settings& settings, const RunControl& control) {
@@ -254,15 +285,18 @@ void run(const Settings& settings, const RunControl& control) {
                 "say one of --pose, --path, --leave-out and --refocus");
   if (settings.refocus.size() == 2)
     throw Error(ErrorCode::kInvalidArgument, "--refocus takes one number, or three for a plane");
+  Output output(settings);
   RenderScene scene(settings.result, settings.input, settings.min_confidence);
+  output.set_bit_depth(scene.light_field().pixels->bit_depth());
+  fit_into_memory(settings, scene);
   if (!scene.rig().is_metric() && settings.refocus.empty())
     control.message(
         "focal length and view step aren't known: poses off the plane of the cameras "
         "are true up to a projective map");
-  if (!settings.pose.empty()) render_pose(settings, scene, control);
-  if (!settings.path.empty()) render_path(settings, scene, control);
-  if (!settings.leave_out.empty()) leave_one_out(settings, scene, control);
-  if (!settings.refocus.empty()) render_refocused(settings, scene, control);
+  if (!settings.pose.empty()) render_pose(settings, scene, output, control);
+  if (!settings.path.empty()) render_path(settings, scene, output, control);
+  if (!settings.leave_out.empty()) leave_one_out(settings, scene, output, control);
+  if (!settings.refocus.empty()) render_refocused(settings, scene, output, control);
   control.progress("render", 1, 1);
 }
 
@@ -301,10 +335,7 @@ Run render_command(CLI::App& app) {
                  "With --refocus: views within so many view steps have a part (default: all)")
       ->check(zero_or_more())
       ->type_name("STEPS");
-  app.add_option("-o,--output", settings->output,
-                 "Folder for the pictures; replaced if it is an older result")
-      ->type_name("DIR")
-      ->required();
+  settings->output.add_to(app, "Folder for the pictures")->required();
   app.add_option("--input", settings->input,
                  "Where the pictures are, when they are no more where they were")
       ->type_name("INPUT");
@@ -315,6 +346,8 @@ Run render_command(CLI::App& app) {
                  "Leave out points that are less sure")
       ->check(zero_or_more())
       ->type_name("C");
+  settings->memory.add_to(
+      app, "some 32 bytes per pixel of each of --sources, and 80 more, with --leave-out 600");
   app.add_flag("--equal-weights", settings->equal_weights,
                "Mix the views that see a point alike, without view-dependent weights");
   app.add_flag("--json", settings->json, "Print gigaray.json to stdout");

@@ -16,8 +16,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMostKept = 24;
-
 std::optional<std::vector<double>> parse_numbers(const std::string& text, std::size_t count) {
   std::vector<double> numbers;
   const char* begin = text.data();
@@ -41,6 +39,12 @@ RenderScene::RenderScene(const fs::path& result, const fs::path& input, double m
     : scene_(open_depth_scene(result, input, min_confidence)),
       rig_(scene_.light_field, scene_.range.min) {}
 
+double RenderScene::source_bytes() const {
+  return 10.0 * light_field().width * light_field().height;
+}
+
+double RenderScene::map_bytes() const { return 12.0 * light_field().width * light_field().height; }
+
 const SourceView& RenderScene::source(int view) {
   const auto found =
       std::find_if(kept_.begin(), kept_.end(), [&](const Kept& kept) { return kept.view == view; });
@@ -62,7 +66,7 @@ NovelView RenderScene::render(const Camera& camera, int most_sources, int exclud
     control.throw_if_cancelled();
     sources.push_back(source(view));
   }
-  if (kept_.size() > kMostKept) kept_.resize(kMostKept);
+  if (kept_.size() > most_kept_) kept_.resize(std::max(most_kept_, sources.size()));
   return render_view(camera, sources, light_field().pixels->bit_depth(), options, control);
 }
 

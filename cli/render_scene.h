@@ -23,6 +23,12 @@ class RenderScene {
   RenderScene(const std::filesystem::path& result, const std::filesystem::path& input,
               double min_confidence);
 
+  /// Bytes of one view as a source, and of the maps that are made from one.
+  double source_bytes() const;
+  double map_bytes() const;
+  /// Keeps so many sources at most, or as many as a view is made of if these are more.
+  void keep(std::size_t most) { most_kept_ = most; }
+
   const LightField& light_field() const { return scene_.light_field; }
   const RigCameras& rig() const { return rig_; }
 
@@ -46,6 +52,7 @@ class RenderScene {
     int view;
     SourceView source;
   };
+  std::size_t most_kept_ = 24;
   std::list<Kept> kept_;  ///< the last one used first
 };
 

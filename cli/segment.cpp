@@ -12,11 +12,13 @@
 #include "gigaray/adapters/atomic_output.h"
 #include "gigaray/adapters/depth_result.h"
 #include "gigaray/adapters/maps.h"
+#include "gigaray/adapters/path_text.h"
 #include "gigaray/adapters/pictures.h"
 #include "gigaray/metric_depth.h"
 #include "gigaray/ray_sampler.h"
 #include "gigaray/segmentation.h"
 #include "numbers.h"
+#include "output_option.h"
 #include "view_list.h"
 
 namespace gigaray::cli {
@@ -27,7 +29,8 @@ using nlohmann::ordered_json;
 constexpr const char* kSegmentFormat = "gigaray segment";
 
 struct Settings {
-  std::filesystem::path result, output, input;
+  std::filesystem::path result, input;
+  OutputOption output;
   double near = 0, far = 0;
   std::string unit = "auto", views = "all";
   double min_confidence = 0;
@@ -114,6 +117,8 @@ void write_masks(const std::filesystem::path& place, const Mask& mask, const Flo
 }
 
 void run(const Settings& settings, const RunControl& control) {
+  AtomicFolder folder(settings.output.path, kSegmentFormat,
+                      settings.output.rules({settings.result, settings.input}));
   const DepthResult depth(settings.result);
   const LightField& geometry = depth.light_field();
   const Interval interval = interval_of(settings, geometry);
@@ -125,7 +130,6 @@ void run(const Settings& settings, const RunControl& control) {
   LightField light_field;
   if (settings.soft) light_field = depth.with_pictures(settings.input);
 
-  AtomicFolder folder(settings.output, kSegmentFormat);
   ordered_json list = ordered_json::array();
   Mask mask;
   for (std::size_t i = 0; i < views.size(); ++i) {
@@ -155,7 +159,7 @@ void run(const Settings& settings, const RunControl& control) {
   }
   const ordered_json root{{"format", kSegmentFormat},
                           {"version", 1},
-                          {"depth", std::filesystem::absolute(settings.result).string()},
+                          {"depth", path_text(std::filesystem::absolute(settings.result))},
                           {"unit", name_of(interval.unit)},
                           {"least", interval.values.least},
                           {"most", interval.values.most},
@@ -163,11 +167,10 @@ void run(const Settings& settings, const RunControl& control) {
                           {"views", list}};
   write_file_atomically(folder.path() / "gigaray.json",
                         root.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n");
-  control.throw_if_cancelled();
-  folder.commit();
+  folder.commit(control);
   control.progress("segment", 1, 1);
-  fmt::print("{}: {} {:g} … {:g} in {} views\n", settings.output.string(), name_of(interval.unit),
-             interval.values.least, interval.values.most, views.size());
+  fmt::print("{}: {} {:g} … {:g} in {} views\n", settings.output.path.string(),
+             name_of(interval.unit), interval.values.least, interval.values.most, views.size());
 }
 
 }  // namespace
@@ -192,10 +195,8 @@ Run segment_command(CLI::App& app) {
                  "disparity or depth: refuse a pair in the other order; auto: by their order")
       ->check(CLI::IsMember({"auto", "disparity", "depth"}))
       ->capture_default_str();
-  app.add_option("-o,--output", settings->output,
-                 "Folder for VIEW/mask.png, that of the centre view also at top level; replaced if "
-                 "it is an older result")
-      ->type_name("DIR")
+  settings->output
+      .add_to(app, "Folder for VIEW/mask.png, that of the centre view also at top level")
       ->required();
   app.add_option("--views", settings->views,
                  "all, centre, or a list of names, indices and ranges: 0,4-6,view_09")

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <list>
 #include <memory>
 
@@ -21,6 +22,8 @@ class ViewReader {
   ViewReader(DepthScene scene, RigCameras rig, std::vector<int> views)
       : scene_(std::move(scene)), rig_(std::move(rig)), views_(std::move(views)) {}
 
+  static constexpr std::size_t kMostKept = 24;
+
   DepthView read(int index) {
     const auto found = std::ranges::find(kept_, index, &Kept::index);
     if (found != kept_.end())
@@ -32,7 +35,6 @@ class ViewReader {
   }
 
  private:
-  static constexpr std::size_t kMostKept = 24;
   struct Kept {
     int index;
     DepthView view;
@@ -75,6 +77,11 @@ void SurfaceInput::declare(CLI::App& app) {
       ->check(CLI::Range(0, 1000))
       ->type_name("N")
       ->capture_default_str();
+}
+
+double SurfaceInput::view_bytes(double pixels, int num_views) {
+  constexpr double kPixel = 2 * sizeof(float) + 3;
+  return kPixel * pixels * std::min<double>(num_views, ViewReader::kMostKept);
 }
 
 DepthViews SurfaceInput::open(const RunControl& control) const {

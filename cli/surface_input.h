@@ -10,6 +10,7 @@
 #include "gigaray/error.h"
 #include "gigaray/meshing/cloud.h"
 #include "gigaray/run_control.h"
+#include "output_option.h"
 
 namespace gigaray::cli {
 
@@ -20,6 +21,11 @@ struct SurfaceInput {
   PointOptions points;
 
   void declare(CLI::App& app);
+  /// Of an output of the command.
+  OutputRules rules(const OutputOption& output) const { return output.rules({result, input}); }
+
+  /// Bytes of the views that are kept in memory at once: `pixels` of a picture, so many views.
+  static double view_bytes(double pixels, int num_views);
 
   /// The chosen views with cameras in scene units. Tells when these are not known.
   DepthViews open(const RunControl& control) const;

@@ -20,6 +20,7 @@
 #include "gigaray/adapters/maps.h"
 #include "gigaray/adapters/pictures.h"
 #include "gigaray/synthetic.h"
+#include "output_option.h"
 #include "synthetic_photographs.h"
 
 namespace gigaray::cli {
@@ -30,7 +31,7 @@ using nlohmann::ordered_json;
 
 struct SynthOptions {
   SyntheticOptions scene;
-  fs::path out;
+  OutputOption out;
   int views = 17;
   std::string grid;  ///< "9x9"; empty: a row of `views`
   std::pair<double, double> disparity{-1, 1};
@@ -72,7 +73,7 @@ void synthesise(SynthOptions options, const RunControl& control) {
   scene.disparity = {options.disparity.first, options.disparity.second};
   const LightField light_field = describe_synthetic(scene);
 
-  AtomicFolder out(options.out, kLightFieldFormat);
+  AtomicFolder out(options.out.path, kLightFieldFormat, options.out.rules({}));
   const fs::path truth = out.path() / "truth";
   fs::create_directory(truth);
   const int centre = centre_view(light_field);
@@ -87,11 +88,10 @@ void synthesise(SynthOptions options, const RunControl& control) {
   const fs::path description = out.path() / "gigaray.json";
   write_light_field_json(description, light_field, files);
   add_origin(description, scene);
-  control.throw_if_cancelled();
-  out.commit();
+  out.commit(control);
   fmt::print("{}: {} views of {} × {} px, disparity {:g} … {:g}; exact disparity in {}\n",
-             options.out.string(), files.size(), scene.width, scene.height, scene.disparity.min,
-             scene.disparity.max, (options.out / "truth").string());
+             options.out.path.string(), files.size(), scene.width, scene.height,
+             scene.disparity.min, scene.disparity.max, (options.out.path / "truth").string());
 }
 
 /// Photographs from anywhere instead of parallel views.
@@ -129,7 +129,7 @@ Run synth_command(CLI::App& app) {
   app.add_option("SCENE", scene.scene,
                  fmt::format("One of {}", fmt::join(synthetic_scene_names(), ", ")))
       ->required();
-  app.add_option("-o,--output", options->out, "Folder to write")->required();
+  options->out.add_to(app, "Folder to write")->required();
   app.add_option("--width", scene.width, "px")->capture_default_str();
   app.add_option("--height", scene.height, "px")->capture_default_str();
   auto* views = app.add_option("--views", options->views, "Views in a row: a 3D light field")

@@ -80,10 +80,10 @@ std::string description(const SyntheticOptions& options, const SyntheticPath& pa
 
 }  // namespace
 
-void write_synthetic_photographs(const fs::path& out_folder, const SyntheticOptions& options,
+void write_synthetic_photographs(const OutputOption& output, const SyntheticOptions& options,
                                  const SyntheticPath& path, const RunControl& control) {
   const SyntheticCapture capture = describe_synthetic_capture(options, path);
-  AtomicFolder out(out_folder, kFormat, kDescription);
+  AtomicFolder out(output.path, kFormat, output.rules({}));
   for (const char* name : {"images", "truth"}) fs::create_directory(out.path() / name);
   render_synthetic_capture(
       options, path, control, [&](int view_idx, Image<std::uint16_t> picture, FloatMap depth) {
@@ -94,11 +94,10 @@ void write_synthetic_photographs(const fs::path& out_folder, const SyntheticOpti
   write_colmap_model(out.path() / "sparse" / "0", colmap_model(capture, path.distortion),
                      ColmapFormat::kText);
   write_file_atomically(out.path() / kDescription, description(options, path));
-  control.throw_if_cancelled();
-  out.commit();
+  out.commit(control);
   fmt::print("{}: {} photographs of {} × {} px; their cameras in {}, exact depth in {}\n",
-             out_folder.string(), capture.names.size(), options.width, options.height,
-             (out_folder / "sparse" / "0").string(), (out_folder / "truth").string());
+             output.path.string(), capture.names.size(), options.width, options.height,
+             (output.path / "sparse" / "0").string(), (output.path / "truth").string());
 }
 
 }  // namespace gigaray::cli

@@ -9,6 +9,7 @@
 #include <system_error>
 #include <utility>
 
+#include "gigaray/adapters/input_file.h"
 #include "camera_position.h"
 #include "picture_files.h"
 #include "readers.h"
@@ -92,7 +93,7 @@ class CalibratedPairReader : public Reader {
     light_field.kind = LightFieldKind::k3D;
     light_field.views = {{pair.left.stem().string(), -0.5, 0},
                          {pair.right.stem().string(), 0.5, 0}};
-    attach_pictures(light_field, {pair.left, pair.right});
+    attach_pictures(light_field, {pair.left, pair.right}, options.memory_bytes);
     auto& notes = light_field.notes;
     scale(calibration, light_field, pair.calibration.filename().string(), notes);
 

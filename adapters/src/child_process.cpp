@@ -5,7 +5,6 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <signal.h>
-#include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -16,6 +15,7 @@
 #include <sstream>
 #include <system_error>
 #include <thread>
+#include <utility>
 
 #include "gigaray/error.h"
 
@@ -41,19 +41,101 @@ std::vector<std::string> environment_with(const std::vector<std::string>& settin
   return all;
 }
 
-/// posix_spawn's two structures, released in any case.
-struct SpawnSettings {
-  SpawnSettings() {
-    posix_spawn_file_actions_init(&actions);
-    posix_spawnattr_init(&attributes);
+/// The first executable file of this name on PATH; a name with a slash is one already. Empty: none.
+std::string find_program(const std::string& name) {
+  if (name.find('/') != std::string::npos) return name;
+  const char* path = std::getenv("PATH");
+  std::istringstream folders(path ? path : "/bin:/usr/bin");
+  for (std::string folder; std::getline(folders, folder, ':');)
+    if (const std::string file = std::filesystem::path(folder) / name;
+        access(file.c_str(), X_OK) == 0 && !std::filesystem::is_directory(file))
+      return file;
+  return {};
+}
+
+/// A pipe whose ends no program inherits.
+struct Pipe {
+  Pipe() { is_open = pipe2(ends, O_CLOEXEC) == 0; }
+  ~Pipe() {
+    for (const int end : ends)
+      if (end >= 0) close(end);
   }
-  ~SpawnSettings() {
-    posix_spawn_file_actions_destroy(&actions);
-    posix_spawnattr_destroy(&attributes);
-  }
-  posix_spawn_file_actions_t actions;
-  posix_spawnattr_t attributes;
+  Pipe(const Pipe&) = delete;
+  Pipe& operator=(const Pipe&) = delete;
+  int release(int end) { return std::exchange(ends[end], -1); }
+
+  int ends[2] = {-1, -1};
+  bool is_open = false;
 };
+
+extern "C" void do_nothing(int) {}
+
+// What follows runs between fork and exec, where only async-signal-safe calls are allowed.
+
+void set_signal(int signal, void (*handler)(int)) {
+  struct sigaction action = {};
+  action.sa_handler = handler;
+  sigemptyset(&action.sa_mask);
+  sigaction(signal, &action, nullptr);
+}
+
+struct Launch {
+  const char* program;
+  char* const* words;
+  char* const* environment;
+  int output;  ///< gets stdout and stderr
+  int errors;  ///< gets errno when the program can't be started
+  int alive;   ///< ends when the process that started all this does
+};
+
+[[noreturn]] void become_program(const Launch& launch) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGPIPE, SIGCHLD, SIGXCPU, SIGXFSZ})
+    set_signal(signal, SIG_DFL);
+  sigset_t none;
+  sigemptyset(&none);
+  sigprocmask(SIG_SETMASK, &none, nullptr);
+  const int nothing = open("/dev/null", O_RDONLY);
+  const bool ready = dup2(nothing, STDIN_FILENO) >= 0 && dup2(launch.output, STDOUT_FILENO) >= 0 &&
+                     dup2(launch.output, STDERR_FILENO) >= 0;
+  if (ready) execve(launch.program, launch.words, launch.environment);
+  const int error = errno;
+  if (write(launch.errors, &error, sizeof error) < 0) _exit(126);
+  _exit(127);
+}
+
+/// Leads the group of the program and ends as it does. When `alive` ends first, by a SIGKILL say,
+/// the whole group is killed.
+[[noreturn]] void lead_group(const Launch& launch) {
+  setpgid(0, 0);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGPIPE}) set_signal(signal, SIG_IGN);
+  set_signal(SIGCHLD, do_nothing);
+  sigset_t child, others;
+  sigemptyset(&child);
+  sigaddset(&child, SIGCHLD);
+  sigprocmask(SIG_BLOCK, &child, &others);
+  sigdelset(&others, SIGCHLD);
+
+  const pid_t program = fork();
+  if (program == 0) become_program(launch);
+  if (program < 0) {
+    const int error = errno;
+    _exit(write(launch.errors, &error, sizeof error) < 0 ? 126 : 127);
+  }
+  // Files of the starting process stay open, and locked, no longer than it wants.
+  const int alive = dup2(launch.alive, STDIN_FILENO);
+  close_range(STDOUT_FILENO, ~0U, 0);
+  for (int status = 0;;) {
+    if (waitpid(program, &status, WNOHANG) == program) {
+      if (WIFSIGNALED(status)) {
+        set_signal(WTERMSIG(status), SIG_DFL);
+        kill(getpid(), WTERMSIG(status));
+      }
+      _exit(WIFEXITED(status) ? WEXITSTATUS(status) : 128);
+    }
+    pollfd starter{alive, POLLIN, 0};
+    if (ppoll(&starter, 1, nullptr, &others) > 0) kill(0, SIGKILL);
+  }
+}
 
 }  // namespace
 
@@ -63,33 +145,33 @@ ChildProcess::ChildProcess(const std::vector<std::string>& arguments,
     throw Error(ErrorCode::kIo, arguments.front() + ": can't be started (" +
                                     std::generic_category().message(error) + ")");
   };
-  int ends[2];
-  if (pipe2(ends, O_CLOEXEC) != 0) fail(errno);
-  output_ = ends[0];
-
-  SpawnSettings spawn;
-  posix_spawn_file_actions_addopen(&spawn.actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-  posix_spawn_file_actions_adddup2(&spawn.actions, ends[1], STDOUT_FILENO);
-  posix_spawn_file_actions_adddup2(&spawn.actions, ends[1], STDERR_FILENO);
-  // Ctrl-C goes to the foreground group alone: this one is stopped in an orderly way instead.
-  posix_spawnattr_setpgroup(&spawn.attributes, 0);
-  sigset_t none, usual;
-  sigemptyset(&none);
-  sigemptyset(&usual);
-  for (const int signal : {SIGINT, SIGTERM, SIGPIPE}) sigaddset(&usual, signal);
-  posix_spawnattr_setsigmask(&spawn.attributes, &none);
-  posix_spawnattr_setsigdefault(&spawn.attributes, &usual);
-  posix_spawnattr_setflags(&spawn.attributes,
-                           POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
+  const std::string program = find_program(arguments.front());
+  if (program.empty()) fail(ENOENT);
+  Pipe output, errors, alive;
+  if (!output.is_open || !errors.is_open || !alive.is_open) fail(errno);
   std::vector<std::string> words = arguments, environment = environment_with(settings);
-  const int error = posix_spawnp(&pid_, words.front().c_str(), &spawn.actions, &spawn.attributes,
-                                 pointers(words).data(), pointers(environment).data());
-  close(ends[1]);
-  if (error != 0) {
+  const std::vector<char*> word_list = pointers(words), environment_list = pointers(environment);
+  const Launch launch{program.c_str(), word_list.data(), environment_list.data(),
+                      output.ends[1],  errors.ends[1],   alive.ends[0]};
+  // Ctrl-C goes to the foreground group alone: this one is stopped in an orderly way instead.
+  pid_ = fork();
+  if (pid_ == 0) {
+    close(alive.ends[1]);  // the other end is the starting process's alone
+    lead_group(launch);
+  }
+  if (pid_ < 0) fail(errno);
+  setpgid(pid_, pid_);  // whichever of the two is first
+  close(errors.release(1));
+  int error = 0;
+  ssize_t count = 0;
+  while ((count = ::read(errors.ends[0], &error, sizeof error)) < 0 && errno == EINTR) continue;
+  if (count > 0) {
+    waitpid(pid_, nullptr, 0);
     pid_ = -1;
-    close_output();
     fail(error);
   }
+  output_ = output.release(0);
+  alive_ = alive.release(1);
 }
 
 ChildProcess::~ChildProcess() {
@@ -105,6 +187,7 @@ ChildProcess::~ChildProcess() {
   }
   kill(-pid_, SIGKILL);  // what is left of its group, too
   if (!ended) waitpid(pid_, nullptr, 0);
+  close(alive_);
 }
 
 void ChildProcess::close_output() {
@@ -126,17 +209,12 @@ std::string ChildProcess::result() {
   int status = 0;
   while (waitpid(pid_, &status, 0) < 0 && errno == EINTR) continue;
   pid_ = -1;
+  close(std::exchange(alive_, -1));
   if (WIFSIGNALED(status)) return "was killed by signal " + std::to_string(WTERMSIG(status));
   if (WEXITSTATUS(status) != 0) return "ended with status " + std::to_string(WEXITSTATUS(status));
   return "";
 }
 
-bool is_missing(const std::string& program) {
-  const char* path = std::getenv("PATH");
-  std::istringstream folders(path ? path : "/bin:/usr/bin");
-  for (std::string folder; std::getline(folders, folder, ':');)
-    if (access((std::filesystem::path(folder) / program).c_str(), X_OK) == 0) return false;
-  return true;
-}
+bool is_missing(const std::string& program) { return find_program(program).empty(); }
 
 }  // namespace gigaray

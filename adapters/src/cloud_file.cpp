@@ -3,6 +3,7 @@
 #include "gigaray/adapters/cloud_file.h"
 
 #include <string>
+#include <utility>
 
 #include "ply.h"
 
@@ -17,7 +18,7 @@ std::string header(std::uint64_t points, const Eigen::Vector3d& origin) {
 
 }  // namespace
 
-CloudFile::CloudFile(const std::filesystem::path& path) : file_(path) {}
+CloudFile::CloudFile(AtomicFile file) : file_(std::move(file)) {}
 
 void CloudFile::add(const PointCloud& cloud) {
   if (!origin_) file_.write(header(0, *(origin_ = cloud.origin)));
@@ -35,12 +36,12 @@ void CloudFile::add(const PointCloud& cloud) {
   file_.write(bytes);
 }
 
-void CloudFile::commit() {
+void CloudFile::commit(const RunControl& control) {
   if (origin_)
     file_.write_at_begin(header(points_, *origin_));
   else
     file_.write(header(0, Eigen::Vector3d::Zero()));
-  file_.commit();
+  file_.commit(control);
 }
 
 }  // namespace gigaray

@@ -12,6 +12,7 @@
 
 #include "float_bytes.h"
 #include "gigaray/adapters/atomic_output.h"
+#include "gigaray/adapters/input_file.h"
 #include "gigaray/error.h"
 #include "text.h"
 
@@ -79,17 +80,19 @@ void write_colmap_normal_map(const fs::path& path, const FloatMap& depth, const 
 }
 
 FloatMap read_colmap_depth_map(const fs::path& path) {
-  const std::string bytes = read_bytes(path);
+  constexpr std::uint64_t kMostHead = 100;
+  const InputFile file(path);
+  const std::string head = file.read(0, kMostHead);
   const auto bad = [&](const std::string& what) {
     return Error(ErrorCode::kBadInput, path.string() + ": " + what);
   };
-  std::string_view rest = bytes;
+  std::string_view rest = head;
   const auto number = [&]() {
     constexpr int kMost = 1 << 20;  // px per axis
     const auto end = rest.find('&');
     const auto value =
         end == std::string_view::npos ? std::nullopt : parse_number(rest.substr(0, end));
-    if (!value || *value < 1 || *value > kMost || *value != int(*value))
+    if (!value || !(*value >= 1 && *value <= kMost) || *value != int(*value))
       throw bad("is no depth map of COLMAP: it does not begin with its size");
     rest.remove_prefix(end + 1);
     return int(*value);
@@ -98,12 +101,14 @@ FloatMap read_colmap_depth_map(const fs::path& path) {
   if (channels != 1)
     throw bad("has " + std::to_string(channels) + " channels, a depth map has one");
   const std::size_t wanted = std::size_t(width) * height * sizeof(float);
-  if (rest.size() != wanted)
-    throw bad((rest.size() < wanted ? "is cut short: " : "is too long: ") +
-              std::to_string(rest.size()) + " bytes of floats where its size takes " +
-              std::to_string(wanted));
+  const std::uint64_t begin = head.size() - rest.size(), present = file.size() - begin;
+  if (present != wanted)
+    throw bad((present < wanted ? "is cut short: " : "is too long: ") + std::to_string(present) +
+              " bytes of floats where its size takes " + std::to_string(wanted));
+  hold_against_limit(path.string(), "has " + std::to_string(wanted) + " bytes of floats",
+                     2.0 * double(wanted), opening_limit());
   FloatMap depth(width, height);
-  load_floats(rest.data(), std::endian::little, depth.data(), depth.size());
+  load_floats(file.read(begin, wanted).data(), std::endian::little, depth.data(), depth.size());
   for (float& z : depth)
     if (!(z > 0) || !std::isfinite(z)) z = kNoEstimate;
   return depth;

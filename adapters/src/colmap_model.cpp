@@ -9,6 +9,7 @@
 
 #include "colmap_model_files.h"
 #include "gigaray/adapters/atomic_output.h"
+#include "gigaray/adapters/input_file.h"
 #include "gigaray/error.h"
 #include "text.h"
 
@@ -99,10 +100,17 @@ ColmapModel read_colmap_model(const fs::path& folder) {
   const bool binary = has_parts(folder, ".bin");
   const ColmapParser& parser = binary ? kBinaryColmapParser : kTextColmapParser;
   const std::string extension = binary ? ".bin" : ".txt";
+  const double limit = opening_limit();
   ColmapModel model;
   const auto parse = [&](const std::string& part, auto parse_bytes) {
     const fs::path path = folder / (part + extension);
-    parse_bytes(binary ? read_bytes(path) : read_text(path), path.string(), model);
+    // Entries in memory have some times the bytes that they have in the file.
+    constexpr double kBytesPerByte = 5;
+    const InputFile file(path);
+    hold_against_limit(path.string(), "has " + std::to_string(file.size()) + " bytes",
+                       kBytesPerByte * double(file.size()), limit);
+    std::string bytes = file.read(0, file.size());
+    parse_bytes(binary ? std::move(bytes) : as_utf8(std::move(bytes)), path.string(), model);
   };
   parse("cameras", parser.cameras);
   parse("images", parser.images);

@@ -14,6 +14,7 @@
 #include "colmap_folders.h"
 #include "gigaray/adapters/atomic_output.h"
 #include "gigaray/adapters/child_process.h"
+#include "gigaray/adapters/input_file.h"
 #include "mask_folder.h"
 #include "picture_files.h"
 #include "text.h"
@@ -202,9 +203,10 @@ void prepare(const fs::path& work) {
 
 void find_features(Program& program, const fs::path& folder, const fs::path& work,
                    const Words& names, const ColmapRunOptions& options) {
+  const double limit = opening_limit();
   std::vector<PictureSpec> specs;
   for (const std::string& name : names)
-    specs.push_back(read_picture_spec(folder / name, Orientation::kIgnored));
+    specs.push_back(read_picture_spec(folder / name, Orientation::kIgnored, limit));
   const Words cameras = camera_arguments(folder, names, specs, options.lens);
   const Words masks = mask_arguments(options.masks, names, work);
   std::string list;
@@ -278,7 +280,7 @@ ColmapRun run_colmap(const fs::path& photographs, const fs::path& work,
                 "of photographs");
   prepare(work);
   ColmapRun result;
-  result.log = work / "colmap.log";
+  result.log = work / kColmapLog;
   result.num_pictures = int(names.size());
   Program program(result.log, control);
   find_features(program, photographs, work, names, options);

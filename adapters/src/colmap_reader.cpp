@@ -135,7 +135,7 @@ LightField open_model(FoundColmapModel found, const OpenOptions& options,
       notes.push_back("rigs and frames of the model are ignored; its images state every pose");
       break;
     }
-  LightField light_field = posed_light_field(std::move(pictures), kName);
+  LightField light_field = posed_light_field(std::move(pictures), kName, options.memory_bytes);
   light_field.notes.insert(light_field.notes.begin(), notes.begin(), notes.end());
   return light_field;
 }

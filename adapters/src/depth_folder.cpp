@@ -25,10 +25,11 @@ Image<T> cropped(const Image<T>& image, int width, int height) {
 }  // namespace
 
 DepthFolder::DepthFolder(const std::filesystem::path& target, std::set<MapFormat> formats,
-                         LightField light_field)
-    : folder_(target, kDepthFormat),
-      formats_(std::move(formats)),
-      light_field_(std::move(light_field)) {
+                         OutputRules rules)
+    : folder_(target, kDepthFormat, std::move(rules)), formats_(std::move(formats)) {}
+
+void DepthFolder::describe(LightField light_field) {
+  light_field_ = std::move(light_field);
   if (!formats_.contains(MapFormat::kColmap)) return;
   if (light_field_.kind != LightFieldKind::kUnstructured)
     throw Error(ErrorCode::kInvalidArgument,
@@ -90,10 +91,10 @@ void DepthFolder::write_view(int view_idx, FloatMap disparity, FloatMap confiden
   if (is_centre) write_maps(folder_.path(), disparity, confidence, pictured);
 }
 
-void DepthFolder::commit(const std::string& json) {
+void DepthFolder::commit(const std::string& json, const RunControl& control) {
   if (colmap_) colmap_->finish();
   write_file_atomically(folder_.path() / "gigaray.json", json + "\n");
-  folder_.commit();
+  folder_.commit(control);
 }
 
 }  // namespace gigaray

@@ -9,6 +9,7 @@
 
 #include "described_light_field.h"
 #include "gigaray/adapters/depth_folder.h"
+#include "gigaray/adapters/input_file.h"
 #include "gigaray/adapters/maps.h"
 #include "gigaray/adapters/reader.h"
 #include "gigaray/adapters/shrunk.h"
@@ -21,46 +22,25 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-LightField parse(const json& root) {
-  LightField light_field;
-  const json& about = root.at("light_field");
-  light_field.format = about.at("format");
-  light_field.width = about.at("width");
-  light_field.height = about.at("height");
-  if (light_field.width < 1 || light_field.height < 1)
-    throw Error(ErrorCode::kBadInput, "states a size of no pixels");
-  light_field.rig = rig_of(about);
-  for (const json& entry : root.at("views")) {
-    light_field.views.push_back(view_of(entry));
-    if (entry.contains("camera"))
-      light_field.cameras.push_back(camera_of(entry["camera"], light_field.views.back().name));
-  }
-  if (const auto left_out = root.find("left_out"); left_out != root.end())
-    for (const json& entry : *left_out) light_field.left_out.push_back(view_of(entry));
-  const std::string kind = about.at("kind");
-  if (kind == to_string(LightFieldKind::kUnstructured)) {
-    light_field.kind = LightFieldKind::kUnstructured;
-    if (light_field.cameras.size() != light_field.views.size())
-      throw Error(ErrorCode::kBadInput, "has not a camera for every view");
-  } else {
-    // Some views of a grid may lie on a line; the result stays what it was computed as.
-    light_field.kind =
-        kind == to_string(LightFieldKind::k3D) ? LightFieldKind::k3D : LightFieldKind::k4D;
-  }
-  return light_field;
-}
-
 /// Undistorted pictures that lie beside the maps; smaller ones are masked at the right and bottom.
 class PicturesBesideMaps : public PixelSource {
  public:
   PicturesBesideMaps(std::vector<fs::path> files, const LightField& light_field)
-      : files_(std::move(files)), width_(light_field.width), height_(light_field.height) {
+      : files_(std::move(files)),
+        width_(light_field.width),
+        height_(light_field.height),
+        limit_(opening_limit()) {
     for (const fs::path& file : files_) {
-      const PictureSpec spec = read_picture_spec(file, Orientation::kIgnored);
+      const PictureSpec spec = read_picture_spec(file, Orientation::kIgnored, limit_);
       bit_depth_ = std::max(bit_depth_, spec.bit_depth);
       has_mask_ = has_mask_ || spec.width != width_ || spec.height != height_;
       if (spec.width > width_ || spec.height > height_)
         throw Error(ErrorCode::kBadInput, file.string() + ": is larger than gigaray.json states");
+      constexpr double kCanvas = 8;  // bytes per px
+      hold_against_limit(
+          file.string(),
+          "is brought to the " + size_text(width_, height_) + " px that gigaray.json states",
+          kCanvas * width_ * height_, limit_);
     }
   }
   bool has_mask() const override { return has_mask_; }
@@ -69,7 +49,7 @@ class PicturesBesideMaps : public PixelSource {
   Image<std::uint16_t> read(int view) const override {
     PictureSpec spec;
     Image<std::uint16_t> picture =
-        decode_picture(files_.at(std::size_t(view)), Orientation::kIgnored, spec);
+        decode_picture(files_.at(std::size_t(view)), Orientation::kIgnored, spec, limit_);
     if (!has_mask_) return picture;
     Image<std::uint16_t> canvas(width_, height_, 4);
     for (int v = 0; v < picture.height(); ++v)
@@ -83,10 +63,11 @@ class PicturesBesideMaps : public PixelSource {
  private:
   std::vector<fs::path> files_;
   int width_, height_, bit_depth_ = 8;
+  double limit_;
   bool has_mask_ = false;
 };
 
-json read_json(const fs::path& path) { return json::parse(read_bytes(path), nullptr, false); }
+json read_json(const fs::path& path) { return json::parse(read_json_text(path), nullptr, false); }
 
 }  // namespace
 
@@ -109,26 +90,10 @@ DepthResult::DepthResult(const fs::path& folder) : folder_(folder) {
     throw Error(ErrorCode::kBadInput,
                 folder.string() + ": is no result of `gigaray depth` (it has no gigaray.json)");
   const fs::path path = folder / "gigaray.json";
-  const json root = read_json(path);
-  if (!root.is_object())
-    throw Error(ErrorCode::kBadInput, path.string() + ": is damaged or no JSON object");
-  if (root.value("format", json()) != kDepthFormat)
-    throw Error(ErrorCode::kBadInput,
-                path.string() + ": describes no result of `gigaray depth`; give its output folder");
-  try {
-    light_field_ = parse(root);
-    input_ = root.at("input").get<std::string>();
-    const json& range = root.at("options").at("disparity_range");
-    searched_ = {range.at(0), range.at(1)};
-  } catch (const json::exception& problem) {
-    throw Error(
-        ErrorCode::kBadInput,
-        path.string() + ": an entry is missing or of the wrong type (" + problem.what() + ")");
-  } catch (const Error& problem) {
-    throw Error(problem.code(), path.string() + ": " + problem.what());
-  }
-  if (light_field_.views.empty())
-    throw Error(ErrorCode::kBadInput, path.string() + ": names no view");
+  DescribedDepth described = parse_depth_json(read_json_text(path), path.string());
+  light_field_ = std::move(described.light_field);
+  input_ = std::move(described.input);
+  searched_ = described.searched;
 }
 
 FloatMap DepthResult::map(int view, const char* name) const {

@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The Gigaray authors
 #pragma once
 
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
@@ -23,10 +24,20 @@ nlohmann::ordered_json description_of(const LightField& light_field);
 /// Parts of it, and a camera as `gigaray depth` writes it. These and the next function throw
 /// Error(kBadInput) or an exception of the JSON library.
 View view_of(const nlohmann::json& entry);
+int size_of(const nlohmann::json& entry, const char* key);  ///< width or height, 1 … 2^20 px
 RigGeometry rig_of(const nlohmann::json& description);
 Camera camera_of(const nlohmann::json& entry, const std::string& name);
 /// The light field that it describes.
 LightField described_light_field(const nlohmann::json& description);
+
+/// What the gigaray.json of a result of `gigaray depth` says.
+struct DescribedDepth {
+  LightField light_field;  ///< of the views with depth, without pixels
+  std::filesystem::path input;
+  DisparityRange searched;
+};
+/// Parses its text. Throws Error(kBadInput) beginning with `where`.
+DescribedDepth parse_depth_json(std::string_view text, const std::string& where);
 
 /// Parses the text of a gigaray.json. Throws Error(kBadInput) beginning with `where`.
 DescribedLightField parse_light_field_json(std::string_view text, const std::string& where);

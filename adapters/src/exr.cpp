@@ -9,10 +9,17 @@
 #include <ImfOutputFile.h>
 #include <ImfStdIO.h>
 
+#include <Iex.h>
+#include <ImfIO.h>
+
+#include <algorithm>
 #include <exception>
 
 #include "gigaray/adapters/atomic_output.h"
+#include "gigaray/adapters/input_file.h"
 #include "gigaray/adapters/maps.h"
+#include "map_headers.h"
+#include "picture_files.h"
 
 namespace gigaray {
 namespace {
@@ -27,29 +34,67 @@ Imf::FrameBuffer frame_buffer(FloatMap& map, const char* channel, int left, int 
   return buffer;
 }
 
+/// Bytes in memory as a file.
+class Bytes : public Imf::IStream {
+ public:
+  Bytes(const std::string& bytes, const std::string& name) : IStream(name.c_str()), bytes_(bytes) {}
+  bool read(char* to, int size) override {
+    if (size < 0 || position_ > bytes_.size() || std::size_t(size) > bytes_.size() - position_)
+      throw Iex::InputExc("it ends too early");
+    std::copy_n(bytes_.data() + position_, size, to);
+    position_ += std::uint64_t(size);
+    return position_ < bytes_.size();
+  }
+  std::uint64_t tellg() override { return position_; }
+  void seekg(std::uint64_t position) override { position_ = position; }
+
+ private:
+  const std::string& bytes_;
+  std::uint64_t position_ = 0;
+};
+
 }  // namespace
 
-FloatMap read_exr(const std::filesystem::path& path) {
+FloatMap parse_exr(const std::string& bytes, const std::string& where, double limit) {
   const auto bad = [&](const std::string& what) {
-    return Error(ErrorCode::kBadInput, path.string() + ": " + what);
+    return Error(ErrorCode::kBadInput, where + ": " + what);
   };
+  const ExrHeader stated = parse_exr_header(bytes, bytes.size(), where);
+  // The map, and a chunk as it is packed, unpacked and sorted.
+  hold_against_limit(
+      where, "states " + size_text(stated.width, stated.height) + " px",
+      sizeof(float) * (double(stated.width) * stated.height + 4 * stated.chunk_pixels) +
+          double(bytes.size()),
+      limit);
   try {
-    Imf::InputFile file(path.c_str());
+    Bytes stream(bytes, where);
+    Imf::InputFile file(stream, 0);
     const Imf::ChannelList& channels = file.header().channels();
     const auto first = channels.begin();
-    auto second = first;
-    if (first == channels.end() || ++second != channels.end())
-      throw bad("has not one channel, as a map has");
     const Imath::Box2i window = file.header().dataWindow();
-    FloatMap map(window.max.x - window.min.x + 1, window.max.y - window.min.y + 1);
+    if (first == channels.end() || window.max.x - window.min.x + 1 != stated.width ||
+        window.max.y - window.min.y + 1 != stated.height)
+      throw bad("is damaged in its header");
+    FloatMap map(stated.width, stated.height);
     file.setFrameBuffer(frame_buffer(map, first.name(), window.min.x, window.min.y));
     file.readPixels(window.min.y, window.max.y);
     return map;
   } catch (const Error&) {
     throw;
   } catch (const std::exception& error) {
-    throw bad(std::string("is damaged or no OpenEXR file (") + error.what() + ")");
+    const std::string reason = error.what();
+    throw bad("is damaged or no OpenEXR file (" + reason.substr(0, reason.find('\n')) + ")");
   }
+}
+
+FloatMap read_exr(const std::filesystem::path& path) {
+  constexpr std::uint64_t kMostHeader = 4 << 20;
+  const double limit = opening_limit();
+  const InputFile file(path);
+  parse_exr_header(file.read(0, kMostHeader), file.size(), path.string());
+  hold_against_limit(path.string(), "has " + std::to_string(file.size()) + " bytes",
+                     double(file.size()), limit);
+  return parse_exr(file.read(0, file.size()), path.string(), limit);
 }
 
 void write_exr(const std::filesystem::path& path, const FloatMap& map) {

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Gigaray authors
 // gigaray.json, the program's own description of a light field; docs/formats.md.
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <system_error>
 
 #include "camera_position.h"
 #include "described_light_field.h"
 #include "gigaray/adapters/atomic_output.h"
+#include "gigaray/adapters/input_file.h"
 #include "gigaray/adapters/light_field_json.h"
 #include "picture_files.h"
 #include "readers.h"
@@ -60,12 +62,13 @@ class GigarayJsonReader : public Reader {
   LightField open(const fs::path& input, const OpenOptions& options) const override {
     refuse_direction(options, "gigaray.json states");
     const fs::path path = json_of(input);
-    auto [light_field, names] = parse_light_field_json(read_bytes(path), path.string());
+    auto [light_field, names] =
+        parse_light_field_json(read_json_text(path, options.memory_bytes), path.string());
     std::vector<fs::path> files;
     for (const std::string& name : names) files.push_back(path.parent_path() / name);
     const int width = light_field.width, height = light_field.height;
     try {
-      if (!files.empty()) attach_pictures(light_field, std::move(files));
+      if (!files.empty()) attach_pictures(light_field, std::move(files), options.memory_bytes);
     } catch (const Error& problem) {
       throw Error(problem.code(), path.string() + ": " + problem.what());
     }
@@ -97,10 +100,18 @@ RigGeometry rig_of(const json& root) {
   return result;
 }
 
+int size_of(const json& entry, const char* key) {
+  constexpr double kMost = 1 << 20;
+  const double size = entry.at(key);
+  if (!(size >= 1 && size <= kMost && size == std::floor(size)))
+    throw bad(std::string("states no valid ") + key);
+  return int(size);
+}
+
 Camera camera_of(const json& entry, const std::string& name) {
   Camera camera;
-  camera.width = entry.at("width");
-  camera.height = entry.at("height");
+  camera.width = size_of(entry, "width");
+  camera.height = size_of(entry, "height");
   camera.focal_u = entry.at("focal_px").at(0);
   camera.focal_v = entry.at("focal_px").at(1);
   camera.centre_u = entry.at("principal_point_px").at(0);
@@ -123,8 +134,8 @@ LightField described_light_field(const json& root) {
   if (root.at("kind") != to_string(light_field.kind))
     throw bad("states the kind " + in_quotes(root.at("kind").dump()) + ", its positions are " +
               to_string(light_field.kind));
-  light_field.width = root.at("width");
-  light_field.height = root.at("height");
+  light_field.width = size_of(root, "width");
+  light_field.height = size_of(root, "height");
   if (const auto range = root.find("disparity_range"); range != root.end() && !range->is_null()) {
     light_field.declared_range = DisparityRange{range->at(0), range->at(1)};
     if (!(light_field.declared_range->min < light_field.declared_range->max))

@@ -8,6 +8,7 @@
 #include <regex>
 
 #include "camera_position.h"
+#include "gigaray/adapters/input_file.h"
 #include "hci_parameters.h"
 #include "picture_files.h"
 #include "readers.h"
@@ -115,7 +116,7 @@ class HciReader : public Reader {
       light_field.notes.push_back(std::to_string(files.size()) + " of " +
                                   std::to_string(columns * rows) + " views of the grid are there");
     light_field.kind = kind_from_positions(light_field.views);
-    attach_pictures(light_field, std::move(files));
+    attach_pictures(light_field, std::move(files), options.memory_bytes);
     if (parameters) apply(*parameters, light_field);
     return light_field;
   }

@@ -14,7 +14,9 @@
 #include <system_error>
 
 #include "gigaray/adapters/hci_old.h"
+#include "gigaray/adapters/input_file.h"
 #include "hdf5_file.h"
+#include "picture_files.h"
 #include "readers.h"
 #include "text.h"
 #include "view_grid.h"
@@ -24,6 +26,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr int kColumnsAtOnce = 16;              // of all views of a .mat file
 constexpr std::uint64_t kMostPerAxis = 1000;    // views
 constexpr std::uint64_t kMostPixels = 1 << 20;  // per axis
 
@@ -52,6 +55,9 @@ struct Layout {
   bool has_channels = true;
   Hdf5Type type = Hdf5Type::kUint8;
   int rows = 0, columns = 0, height = 0, width = 0, channels = 1;
+  double chunk_bytes = 0;
+
+  double view_samples() const { return double(width) * height * channels; }
 
   int bit_depth() const { return type == Hdf5Type::kUint8 ? 8 : 16; }
 
@@ -84,6 +90,7 @@ Layout layout_of(const Hdf5File& file) {
     if (sizes[axis] < 1 || sizes[axis] > (axis < 2 ? kMostPerAxis : kMostPixels))
       bad(file.path(), "LF of " + sizes_text(sizes) + " is no light field (t, s, v, u, c)");
   layout.type = shape->type;
+  layout.chunk_bytes = shape->chunk_bytes;
   if (layout.type == Hdf5Type::kOther)
     bad(file.path(), "LF has values of another type than 8-bit, 16-bit or floating point");
   layout.rows = int(sizes[0]);
@@ -134,7 +141,6 @@ class Hdf5Views : public PixelSource {
 /// All views of a file in MATLAB's order, where every view is spread over the whole file: read
 /// once, some picture columns of all views at a time.
 std::vector<Image<std::uint16_t>> read_matlab_views(const Hdf5File& file, const Layout& layout) {
-  constexpr int kColumnsAtOnce = 16;
   const std::size_t views = std::size_t(layout.rows) * layout.columns;
   std::vector<Image<std::uint16_t>> pictures(views,
                                              Image<std::uint16_t>(layout.width, layout.height, 3));
@@ -175,10 +181,11 @@ class Hdf5Reader : public Reader {
   LightField open(const fs::path& input, const OpenOptions& options) const override {
     const fs::path path = file_of(input);
     if (is_matlab(path) && !Hdf5File::is_one(path) &&
-        read_bytes(path).starts_with("MATLAB 5.0 MAT-file"))
+        InputFile(path).read(0, 20).starts_with("MATLAB 5.0 MAT-file"))
       bad(path, "is a MATLAB file older than version 7.3; write it anew with save(…, '-v7.3')");
     Hdf5File file(path);
     const Layout layout = layout_of(file);
+    hold(path, layout, opening_limit(options.memory_bytes));
     const auto dh = file.attribute("dH");
     const bool hci = dh && !layout.reversed;
 
@@ -213,6 +220,24 @@ class Hdf5Reader : public Reader {
   }
 
  private:
+  /// One view, or all of a .mat file: samples as they are and as integers, the picture, a chunk as
+  /// it is packed and unpacked.
+  static void hold(const fs::path& path, const Layout& layout, double limit) {
+    constexpr double kSample = 6, kPixel = 6;
+    const double pixels = double(layout.width) * layout.height;
+    const double views = double(layout.rows) * layout.columns;
+    const double at_once = layout.reversed
+                               ? views * layout.height * std::min(layout.width, kColumnsAtOnce) *
+                                     std::min(layout.channels, 3)
+                               : layout.view_samples();
+    const double bytes = (layout.reversed ? views : 1) * kPixel * pixels + kSample * at_once +
+                         2 * layout.chunk_bytes;
+    hold_against_limit(path.string(),
+                       "LF states " + std::to_string(layout.rows * layout.columns) + " views of " +
+                           size_text(layout.width, layout.height) + " px",
+                       bytes, limit);
+  }
+
   static void apply_rig(const Hdf5File& file, LightField& light_field) {
     const double baseline = file.attribute("dH").value();
     const auto focal = file.attribute("focalLength");
@@ -254,6 +279,10 @@ FloatMap read_hci_old_truth(const fs::path& input) {
   std::copy(sizes.end() - 2, sizes.end(), count.end() - 2);
   if (count[count.size() - 1] > kMostPixels || count[count.size() - 2] > kMostPixels)
     bad(file.path(), "GT_DEPTH of " + sizes_text(sizes) + " is no depth of views");
+  hold_against_limit(file.path().string(), "GT_DEPTH is " + sizes_text(sizes),
+                     4 * sizeof(float) * double(count.back()) * double(count[count.size() - 2]) +
+                         2 * shape->chunk_bytes,
+                     opening_limit());
   const std::vector<float> depth = file.read_float("GT_DEPTH", start, count);
   std::vector<float> mask(depth.size(), 1);
   if (const auto mask_shape = file.shape("GT_DEPTH_MASK"); mask_shape && mask_shape->sizes == sizes)

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "camera_position.h"
+#include "gigaray/adapters/input_file.h"
 #include "gigaray/adapters/photographs.h"
 #include "numbered_names.h"
 #include "picture_files.h"
@@ -129,7 +130,7 @@ class ImageSequenceReader : public Reader {
           "the camera is assumed to move to the right as the "
           "numbers rise (--direction states it)");
     }
-    attach_pictures(light_field, std::move(series.files));
+    attach_pictures(light_field, std::move(series.files), options.memory_bytes);
     return light_field;
   }
 
@@ -152,18 +153,19 @@ class ImageSequenceReader : public Reader {
       throw Error(problem.code(), options.positions.string() + ": " + problem.what());
     }
     light_field.kind = kind_from_positions(light_field.views);
-    attach_pictures(light_field, std::move(files));
+    attach_pictures(light_field, std::move(files), options.memory_bytes);
     return light_field;
   }
 };
 
 }  // namespace
 
-std::string why_no_series(const fs::path& folder) {
+std::string why_no_series(const fs::path& folder, double memory_bytes) {
   const std::vector<fs::path> pictures = pictures_of(folder);
+  const double limit = opening_limit(memory_bytes);
   std::optional<PictureSpec> first;
   for (const fs::path& picture : pictures) {
-    const PictureSpec spec = read_picture_spec(picture, Orientation::kApplied);
+    const PictureSpec spec = read_picture_spec(picture, Orientation::kApplied, limit);
     if (!first) first = spec;
     if (spec.width != first->width && spec.width == first->height && spec.height == first->width)
       return folder.string() + ": some pictures are upright, some on their side";

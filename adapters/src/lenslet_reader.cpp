@@ -4,6 +4,7 @@
 // Lytro archive (…_eslf.png): below each lens lie columns × rows pixels, one of each view.
 #include <system_error>
 
+#include "gigaray/adapters/input_file.h"
 #include "gigaray/adapters/pictures.h"
 #include "picture_files.h"
 #include "readers.h"
@@ -41,8 +42,14 @@ class LensletReader : public Reader {
                       " is no grid of views; up to 100 per axis, two or more in all");
     const Directions directions = Directions::of_grid(options, Travel::kRight, Travel::kDown);
 
+    // The picture, and its views beside it.
+    const double limit = opening_limit(options.memory_bytes);
+    const PictureSpec spec = read_picture_spec(input, Orientation::kApplied, limit);
+    constexpr double kBytesPerPixel = 6 + 6;
+    hold_against_limit(input.string(), "states " + size_text(spec.width, spec.height) + " px",
+                       kBytesPerPixel * spec.width * spec.height, limit);
     int bit_depth = 8;
-    const Image<std::uint16_t> all = read_picture(input, &bit_depth);
+    const Image<std::uint16_t> all = read_picture(input, &bit_depth, limit);
     if (all.width() % columns != 0 || all.height() % rows != 0)
       throw Error(ErrorCode::kBadInput, input.string() + ": " + std::to_string(all.width()) + "×" +
                                             std::to_string(all.height()) +

@@ -9,6 +9,7 @@
 #include <system_error>
 
 #include "camera_position.h"
+#include "gigaray/adapters/input_file.h"
 #include "npy_matrix.h"
 #include "picture_files.h"
 #include "readers.h"
@@ -55,7 +56,7 @@ class LlffReader : public Reader {
   LightField open(const fs::path& input, const OpenOptions& options) const override {
     refuse_direction(options, "poses_bounds.npy states");
     const fs::path file = file_of(input);
-    std::vector<StatedView> views = parse_poses_bounds(read_bytes(file), file.string());
+    std::vector<StatedView> views = parse_poses_bounds(read_text(file), file.string());
     const fs::path folder = options.images.empty() ? folder_beside(file) : options.images;
     const std::vector<fs::path> pictures = pictures_of(folder);
     if (pictures.size() != views.size())

@@ -101,22 +101,26 @@ std::string completed(std::string_view bytes, const std::filesystem::path& path,
 
 }  // namespace
 
-void check_mesh_name(const std::filesystem::path& path) { format_of(path); }
-
-void write_mesh(const std::filesystem::path& path, const SurfaceMesh& mesh) {
+void write_mesh(AtomicFile& file, const std::filesystem::path& path, const SurfaceMesh& mesh) {
   const Format& format = format_of(path);
   if (mesh.faces.empty())
     throw Error(ErrorCode::kInvalidArgument, path.string() + ": the surface has no triangle");
   GIGARAY_CHECK(mesh.normals.size() == mesh.positions.size() &&
                 mesh.colours.size() == mesh.positions.size());
-  if (path.extension() == ".ply") return write_file_atomically(path, ply_of(mesh));
+  if (path.extension() == ".ply") return file.write(ply_of(mesh));
   const bool is_gltf = path.extension() == ".glb";
   const aiScene scene = scene_of(mesh, is_gltf);
   Assimp::Exporter exporter;
   const aiExportDataBlob* blob = exporter.ExportToBlob(&scene, format.assimp_id);
   if (!blob) throw Error(ErrorCode::kIo, path.string() + ": " + exporter.GetErrorString());
   const std::string_view bytes(static_cast<const char*>(blob->data), blob->size);
-  write_file_atomically(path, completed(bytes, path, mesh.origin));
+  file.write(completed(bytes, path, mesh.origin));
+}
+
+void write_mesh(const std::filesystem::path& path, const SurfaceMesh& mesh) {
+  AtomicFile file(path);
+  write_mesh(file, path, mesh);
+  file.commit();
 }
 
 }  // namespace gigaray

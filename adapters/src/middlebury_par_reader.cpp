@@ -7,6 +7,7 @@
 #include <system_error>
 
 #include "camera_position.h"
+#include "gigaray/adapters/input_file.h"
 #include "picture_files.h"
 #include "projection.h"
 #include "readers.h"

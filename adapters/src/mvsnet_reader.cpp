@@ -9,6 +9,7 @@
 #include <cmath>
 #include <system_error>
 
+#include "gigaray/adapters/input_file.h"
 #include "camera_position.h"
 #include "picture_files.h"
 #include "picture_lookup.h"

@@ -138,7 +138,7 @@ class NamedGridReader : public Reader {
           "columns are assumed to go right and rows down (--direction states it)");
     }
     light_field.kind = kind_from_positions(light_field.views);
-    attach_pictures(light_field, std::move(files));
+    attach_pictures(light_field, std::move(files), options.memory_bytes);
     return light_field;
   }
 };

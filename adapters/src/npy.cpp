@@ -8,6 +8,7 @@
 
 #include "float_bytes.h"
 #include "gigaray/adapters/atomic_output.h"
+#include "gigaray/adapters/input_file.h"
 #include "gigaray/adapters/maps.h"
 #include "npy_matrix.h"
 #include "text.h"
@@ -20,9 +21,17 @@ constexpr std::size_t kAlignment = 64;    // of the first value
 constexpr double kMaxSize = 1 << 20;      // per axis
 constexpr std::size_t kMaxHeader = 4096;  // of a plain array it is some 100 bytes
 
-}  // namespace
+struct Header {
+  int rows = 0, columns = 0;
+  std::size_t value_size = sizeof(float);
+  std::endian order = std::endian::little;
+  std::size_t size = 0;  ///< bytes before the values
 
-NpyMatrix parse_npy_matrix(std::string_view bytes, const std::string& where) {
+  std::size_t count() const { return std::size_t(rows) * std::size_t(columns); }
+};
+
+/// bytes: the first ones of a file of file_size, which must be what the header states.
+Header parse_header(std::string_view bytes, std::uint64_t file_size, const std::string& where) {
   const auto bad = [&](const std::string& what) {
     return Error(ErrorCode::kBadInput, where + ": " + what);
   };
@@ -34,38 +43,58 @@ NpyMatrix parse_npy_matrix(std::string_view bytes, const std::string& where) {
   const std::size_t begin = version_1 ? 10 : 12;
   const std::size_t length =
       byte(8) | byte(9) << 8 | (version_1 ? 0 : byte(10) << 16 | byte(11) << 24);
-  if (length > bytes.size() - begin) throw bad("is cut short in its header");
+  if (length > file_size - begin) throw bad("is cut short in its header");
   if (length > kMaxHeader) throw bad("has no header of a plain array");
-  const std::string header(bytes.substr(begin, length));
+  const std::string text(bytes.substr(begin, length));
 
   std::smatch type, shape;
   static const std::regex kType(R"('descr'\s*:\s*'([<>])f([48])')");
   static const std::regex kShape(R"('shape'\s*:\s*\(\s*(\d{1,9})\s*,\s*(\d{1,9})\s*,?\s*\))");
-  if (!std::regex_search(header, type, kType))
+  if (!std::regex_search(text, type, kType))
     throw bad("holds another type than float32 or float64");
-  if (header.find("'fortran_order': False") == std::string::npos)
+  if (text.find("'fortran_order': False") == std::string::npos)
     throw bad("is stored in Fortran order; save it with numpy.ascontiguousarray");
-  if (!std::regex_search(header, shape, kShape)) throw bad("has not two dimensions");
+  if (!std::regex_search(text, shape, kShape)) throw bad("has not two dimensions");
   const double rows = *parse_number(shape[1].str()), columns = *parse_number(shape[2].str());
   if (rows < 1 || columns < 1 || rows > kMaxSize || columns > kMaxSize)
     throw bad("has no valid size");
-
-  const bool is_double = type[2] == "8";
-  const std::size_t count = std::size_t(rows) * std::size_t(columns);
-  if (bytes.size() - begin - length != count * (is_double ? 8 : 4))
+  Header header;
+  header.rows = int(rows);
+  header.columns = int(columns);
+  header.value_size = type[2] == "8" ? sizeof(double) : sizeof(float);
+  header.order = type[1] == "<" ? std::endian::little : std::endian::big;
+  header.size = begin + length;
+  if (file_size - header.size != header.count() * header.value_size)
     throw bad("is cut short or too long for its shape");
-  NpyMatrix matrix{int(rows), int(columns), std::vector<double>(count)};
-  const char* values = bytes.data() + begin + length;
-  const auto order = type[1] == "<" ? std::endian::little : std::endian::big;
-  if (is_double)
-    load_floats<double>(values, order, matrix.values.data(), count);
+  return header;
+}
+
+}  // namespace
+
+NpyMatrix parse_npy_matrix(std::string_view bytes, const std::string& where) {
+  const Header header = parse_header(bytes, bytes.size(), where);
+  NpyMatrix matrix{header.rows, header.columns, std::vector<double>(header.count())};
+  const char* values = bytes.data() + header.size;
+  if (header.value_size == sizeof(double))
+    load_floats<double>(values, header.order, matrix.values.data(), header.count());
   else
-    load_floats<float>(values, order, matrix.values.data(), count);
+    load_floats<float>(values, header.order, matrix.values.data(), header.count());
   return matrix;
 }
 
+NpyMatrix read_npy_matrix(const std::filesystem::path& path) {
+  // The bytes, and doubles of float32.
+  constexpr double kBytesPerByte = 1 + 2 + 1;
+  const double limit = opening_limit();
+  const InputFile file(path);
+  parse_header(file.read(0, kMaxHeader + 12), file.size(), path.string());
+  hold_against_limit(path.string(), "has " + std::to_string(file.size()) + " bytes",
+                     kBytesPerByte * double(file.size()), limit);
+  return parse_npy_matrix(file.read(0, file.size()), path.string());
+}
+
 FloatMap read_npy(const std::filesystem::path& path) {
-  const NpyMatrix matrix = parse_npy_matrix(read_bytes(path), path.string());
+  const NpyMatrix matrix = read_npy_matrix(path);
   FloatMap map(matrix.columns, matrix.rows);
   std::transform(matrix.values.begin(), matrix.values.end(), map.data(),
                  [](double value) { return float(value); });

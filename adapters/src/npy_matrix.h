@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The Gigaray authors
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,5 +21,7 @@ struct NpyMatrix {
 /// Parses the bytes of a file. Throws Error(kBadInput) beginning with `where`: no such array, cut
 /// short or too long.
 NpyMatrix parse_npy_matrix(std::string_view bytes, const std::string& where);
+/// The same of a file that fits into the memory that opening may take.
+NpyMatrix read_npy_matrix(const std::filesystem::path& path);
 
 }  // namespace gigaray

@@ -7,7 +7,10 @@
 
 #include "float_bytes.h"
 #include "gigaray/adapters/atomic_output.h"
+#include "gigaray/adapters/input_file.h"
 #include "gigaray/adapters/maps.h"
+#include "map_headers.h"
+#include "picture_files.h"
 #include "text.h"
 
 namespace gigaray {
@@ -15,21 +18,23 @@ namespace {
 
 constexpr int kMaxSize = 1 << 20;  // px per axis, keeps a damaged header from asking for terabytes
 
+constexpr std::size_t kMostHeader = 4096;
+
 bool is_space(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
 
 }  // namespace
 
-FloatMap read_pfm(const std::filesystem::path& path) {
-  const std::string bytes = read_bytes(path);
+PfmHeader parse_pfm_header(std::string_view bytes, std::uint64_t file_size,
+                           const std::string& where) {
   const auto bad = [&](const std::string& what) {
-    return Error(ErrorCode::kBadInput, path.string() + ": " + what);
+    return Error(ErrorCode::kBadInput, where + ": " + what);
   };
   std::size_t position = 0;
   const auto word = [&]() -> std::string_view {
     while (position < bytes.size() && is_space(bytes[position])) ++position;
     const std::size_t begin = position;
     while (position < bytes.size() && !is_space(bytes[position])) ++position;
-    return std::string_view(bytes).substr(begin, position - begin);
+    return bytes.substr(begin, position - begin);
   };
 
   if (!bytes.starts_with("Pf")) {
@@ -39,27 +44,39 @@ FloatMap read_pfm(const std::filesystem::path& path) {
   word();
   const auto size = [&]() {
     const auto value = parse_number(word());
-    if (!value || *value < 1 || *value > kMaxSize || *value != int(*value))
+    if (!value || !(*value >= 1 && *value <= kMaxSize) || *value != int(*value))
       throw bad("the header of the PFM states no valid size");
     return int(*value);
   };
-  const int width = size();
-  const int height = size();
+  PfmHeader header;
+  header.width = size();
+  header.height = size();
   const auto scale = parse_number(word());
   if (!scale || !(*scale != 0)) throw bad("the header of the PFM states no valid scale");
-  ++position;  // exactly one character of white space, then the floats
+  header.order = *scale < 0 ? std::endian::little : std::endian::big;
+  header.size = position + 1;  // exactly one character of white space, then the floats
 
-  const std::size_t count = std::size_t(width) * height;
-  const std::size_t present = position <= bytes.size() ? bytes.size() - position : 0;
-  if (present != count * sizeof(float))
-    throw bad((present < count * sizeof(float) ? "is cut short: " : "is too long: ") +
-              std::to_string(present) + " bytes of floats where its header states " +
-              std::to_string(count * sizeof(float)));
-  FloatMap map(width, height);
-  const auto order = *scale < 0 ? std::endian::little : std::endian::big;
-  for (int v = 0; v < height; ++v)
-    load_floats(bytes.data() + position + sizeof(float) * width * (height - 1 - v), order,
-                map.row(v), width);
+  const std::uint64_t stated = std::uint64_t(header.width) * header.height * sizeof(float);
+  const std::uint64_t present = header.size <= file_size ? file_size - header.size : 0;
+  if (present != stated)
+    throw bad((present < stated ? "is cut short: " : "is too long: ") + std::to_string(present) +
+              " bytes of floats where its header states " + std::to_string(stated));
+  return header;
+}
+
+FloatMap read_pfm(const std::filesystem::path& path) {
+  const InputFile file(path);
+  const PfmHeader header = parse_pfm_header(file.read(0, kMostHeader), file.size(), path.string());
+  hold_against_limit(path.string(), "states " + size_text(header.width, header.height) + " px",
+                     double(sizeof(float)) * header.width * header.height, opening_limit());
+  FloatMap map(header.width, header.height);
+  const std::size_t row = sizeof(float) * map.width();
+  for (int v = 0; v < map.height(); ++v) {
+    const std::string bytes = file.read(header.size + row * (map.height() - 1 - v), row);
+    if (bytes.size() != row)
+      throw Error(ErrorCode::kIo, path.string() + ": can't be read to its end");
+    load_floats(bytes.data(), header.order, map.row(v), map.width());
+  }
   return map;
 }
 

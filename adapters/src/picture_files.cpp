@@ -9,9 +9,10 @@
 #include <array>
 #include <system_error>
 
+#include "gigaray/adapters/input_file.h"
 #include "gigaray/adapters/pictures.h"
+#include "picture_loading.h"
 #include "text.h"
-#include "vips.h"
 
 namespace gigaray {
 namespace {
@@ -20,12 +21,6 @@ namespace fs = std::filesystem;
 
 [[noreturn]] void bad(const fs::path& path, const std::string& what) {
   throw Error(ErrorCode::kBadInput, path.string() + ": " + what);
-}
-
-vips::VImage open_picture(const fs::path& path) {
-  return vips::VImage::new_from_file(path.c_str(), vips::VImage::option()
-                                                       ->set("access", VIPS_ACCESS_SEQUENTIAL)
-                                                       ->set("fail_on", VIPS_FAIL_ON_WARNING));
 }
 
 std::string taken_with(const vips::VImage& image) {
@@ -51,15 +46,25 @@ PictureSpec spec_of(const vips::VImage& image, Orientation orientation, const fs
   return spec;
 }
 
+Image<std::uint16_t> repeated(const Image<std::uint16_t>& grey) {
+  Image<std::uint16_t> picture(grey.width(), grey.height(), 3);
+  for (std::size_t i = 0; i < picture.size(); ++i) picture.data()[i] = grey.data()[i / 3];
+  return picture;
+}
+
 class PictureFiles : public PixelSource {
  public:
-  PictureFiles(std::vector<fs::path> files, int width, int height, int bit_depth)
-      : files_(std::move(files)), width_(width), height_(height), bit_depth_(bit_depth) {}
+  PictureFiles(std::vector<fs::path> files, int width, int height, int bit_depth, double limit)
+      : files_(std::move(files)),
+        width_(width),
+        height_(height),
+        bit_depth_(bit_depth),
+        limit_(limit) {}
 
   Image<std::uint16_t> read(int view_idx) const override {
     const fs::path& path = files_.at(view_idx);
     PictureSpec spec;
-    Image<std::uint16_t> picture = decode_picture(path, Orientation::kApplied, spec);
+    Image<std::uint16_t> picture = decode_picture(path, Orientation::kApplied, spec, limit_);
     if (picture.width() != width_ || picture.height() != height_)
       bad(path, "has another size than when it was opened");
     if (spec.bit_depth < bit_depth_) widen_to_16_bit(picture);
@@ -70,6 +75,7 @@ class PictureFiles : public PixelSource {
  private:
   std::vector<fs::path> files_;
   int width_, height_, bit_depth_;
+  double limit_;
 };
 
 }  // namespace
@@ -109,35 +115,28 @@ std::string size_text(int width, int height) {
   return std::to_string(width) + "×" + std::to_string(height);
 }
 
-PictureSpec read_picture_spec(const fs::path& path, Orientation orientation) {
-  use_vips();
+PictureSpec read_picture_spec(const fs::path& path, Orientation orientation, double limit) {
   try {
-    return spec_of(open_picture(path), orientation, path);
+    return spec_of(open_picture(path, limit), orientation, path);
   } catch (const vips::VError& error) {
     bad(path, "is damaged or no picture (" + vips_reason(error) + ")");
   }
 }
 
 Image<std::uint16_t> decode_picture(const fs::path& path, Orientation orientation,
-                                    PictureSpec& spec) {
-  use_vips();
+                                    PictureSpec& spec, double limit) {
   try {
-    vips::VImage image = open_picture(path);
+    vips::VImage image = open_picture(path, limit);
     spec = spec_of(image, orientation, path);
     if (image.interpretation() == VIPS_INTERPRETATION_CMYK)
       image = image.colourspace(VIPS_INTERPRETATION_sRGB);
-    image = image.extract_band(0, vips::VImage::option()->set("n", spec.is_grey ? 1 : 3));
+    const int bands = spec.is_grey ? 1 : 3;
+    image = image.extract_band(0, vips::VImage::option()->set("n", bands)).cast(VIPS_FORMAT_USHORT);
     // Turning reads rows in another order than the file has them: decode first.
-    image = image.cast(VIPS_FORMAT_USHORT).copy_memory();
-    if (orientation == Orientation::kApplied) image = image.autorot();
-    if (spec.is_grey) image = vips::VImage::bandjoin({image, image, image});
-    GIGARAY_CHECK(image.bands() == 3);
-
-    Image<std::uint16_t> picture(image.width(), image.height(), 3);
-    image.write(
-        vips::VImage::new_from_memory(picture.data(), picture.size() * sizeof(std::uint16_t),
-                                      picture.width(), picture.height(), 3, VIPS_FORMAT_USHORT));
-    return picture;
+    if (orientation == Orientation::kApplied && spec.is_turned)
+      image = image.copy_memory().autorot();
+    Image<std::uint16_t> picture(image.width(), image.height(), bands, values_of(image));
+    return spec.is_grey ? repeated(picture) : picture;
   } catch (const vips::VError& error) {
     bad(path, "is damaged or cut short (" + vips_reason(error) + ")");
   }
@@ -159,11 +158,12 @@ int common_bit_depth(const std::vector<PictureSpec>& specs, std::vector<std::str
   return deep ? 16 : 8;
 }
 
-void attach_pictures(LightField& light_field, std::vector<fs::path> files) {
+void attach_pictures(LightField& light_field, std::vector<fs::path> files, double memory_bytes) {
   GIGARAY_CHECK(files.size() == light_field.views.size() && !files.empty());
+  const double limit = opening_limit(memory_bytes);
   std::vector<PictureSpec> specs;
   for (const fs::path& path : files) {
-    specs.push_back(read_picture_spec(path, Orientation::kApplied));
+    specs.push_back(read_picture_spec(path, Orientation::kApplied, limit));
     const PictureSpec &spec = specs.back(), &first = specs.front();
     if (spec.width != first.width || spec.height != first.height)
       bad(path, "has " + size_text(spec.width, spec.height) + " pixels, " +
@@ -174,12 +174,13 @@ void attach_pictures(LightField& light_field, std::vector<fs::path> files) {
   light_field.width = specs.front().width;
   light_field.height = specs.front().height;
   light_field.pixels = std::make_shared<PictureFiles>(std::move(files), light_field.width,
-                                                      light_field.height, bit_depth);
+                                                      light_field.height, bit_depth, limit);
 }
 
-Image<std::uint16_t> read_picture(const fs::path& path, int* bit_depth) {
+Image<std::uint16_t> read_picture(const fs::path& path, int* bit_depth, double memory_bytes) {
   PictureSpec spec;
-  Image<std::uint16_t> picture = decode_picture(path, Orientation::kApplied, spec);
+  Image<std::uint16_t> picture =
+      decode_picture(path, Orientation::kApplied, spec, opening_limit(memory_bytes));
   if (bit_depth) *bit_depth = spec.bit_depth;
   return picture;
 }

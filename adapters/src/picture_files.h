@@ -42,13 +42,15 @@ std::vector<std::filesystem::path> files_of(const std::filesystem::path& folder)
 std::vector<std::filesystem::path> pictures_of(const std::filesystem::path& folder);
 
 /// Reads the header alone. Throws Error(kBadInput) naming the file: no picture, damaged, another
-/// type than 8 or 16 bit.
-PictureSpec read_picture_spec(const std::filesystem::path& path, Orientation orientation);
+/// type than 8 or 16 bit, takes more than `limit` bytes to decode (opening_limit).
+PictureSpec read_picture_spec(const std::filesystem::path& path, Orientation orientation,
+                              double limit);
 
 /// Decodes a picture as RGB, grey repeated, alpha dropped. spec: becomes what its header says.
-/// Throws Error(kBadInput) naming the file when it is damaged or cut short.
+/// Throws Error(kBadInput) naming the file when it is damaged, cut short or takes more than `limit`
+/// bytes.
 Image<std::uint16_t> decode_picture(const std::filesystem::path& path, Orientation orientation,
-                                    PictureSpec& spec);
+                                    PictureSpec& spec, double limit);
 
 /// Brings 8-bit values to 16 bit: 255 becomes 65535.
 void widen_to_16_bit(Image<std::uint16_t>& picture);
@@ -61,7 +63,9 @@ std::string size_text(int width, int height);
 
 /// Sets width, height and pixels of `light_field` from its pictures, one per view in their order,
 /// and notes what is dropped. Reads headers only. Throws Error(kBadInput) naming the file: no
-/// picture, damaged, another size than the others, floating-point.
-void attach_pictures(LightField& light_field, std::vector<std::filesystem::path> files);
+/// picture, damaged, another size than the others, floating-point, too large for
+/// opening_limit(memory_bytes).
+void attach_pictures(LightField& light_field, std::vector<std::filesystem::path> files,
+                     double memory_bytes);
 
 }  // namespace gigaray

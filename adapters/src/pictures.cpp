@@ -9,7 +9,6 @@
 #include "vips.h"
 
 namespace gigaray {
-namespace {
 
 std::string png_bytes(const Image<std::uint16_t>& picture, int bit_depth) {
   GIGARAY_CHECK(bit_depth == 8 || bit_depth == 16);
@@ -35,8 +34,6 @@ std::string png_bytes(const Image<std::uint16_t>& picture, int bit_depth) {
     throw Error(ErrorCode::kOutOfMemory, "a PNG can't be encoded (" + vips_reason(error) + ")");
   }
 }
-
-}  // namespace
 
 void write_png(const std::filesystem::path& path, const Image<std::uint16_t>& picture,
                int bit_depth) {

@@ -9,6 +9,7 @@
 #include <mutex>
 #include <set>
 
+#include "gigaray/adapters/input_file.h"
 #include "picture_alpha.h"
 #include "picture_files.h"
 #include "undistortion.h"
@@ -32,12 +33,14 @@ struct Source {
 
 class PosedPictures : public PixelSource {
  public:
-  PosedPictures(std::vector<Source> sources, int width, int height, int bit_depth, bool has_mask)
+  PosedPictures(std::vector<Source> sources, int width, int height, int bit_depth, bool has_mask,
+                double limit)
       : sources_(std::move(sources)),
         width_(width),
         height_(height),
         bit_depth_(bit_depth),
-        has_mask_(has_mask) {}
+        has_mask_(has_mask),
+        limit_(limit) {}
 
   int bit_depth() const override { return bit_depth_; }
   bool has_mask() const override { return has_mask_; }
@@ -45,7 +48,7 @@ class PosedPictures : public PixelSource {
   Image<std::uint16_t> read(int view_idx) const override {
     const Source& source = sources_.at(std::size_t(view_idx));
     PictureSpec spec;
-    Image<std::uint16_t> picture = decode_picture(source.file, Orientation::kIgnored, spec);
+    Image<std::uint16_t> picture = decode_picture(source.file, Orientation::kIgnored, spec, limit_);
     if (picture.width() != source.width || picture.height() != source.height)
       bad(source.file, "has another size than when it was opened");
     if (spec.bit_depth < bit_depth_) widen_to_16_bit(picture);
@@ -71,7 +74,8 @@ class PosedPictures : public PixelSource {
       bad(source.file, "has another size than when it was opened");
     if (source.mask.empty()) return seen;
     PictureSpec spec;
-    const Image<std::uint16_t> mask = decode_picture(source.mask, Orientation::kIgnored, spec);
+    const Image<std::uint16_t> mask =
+        decode_picture(source.mask, Orientation::kIgnored, spec, limit_);
     if (mask.width() != source.width || mask.height() != source.height)
       bad(source.mask, "has another size than when it was opened");
     for (int v = 0; v < seen.height(); ++v)
@@ -103,6 +107,7 @@ class PosedPictures : public PixelSource {
   std::vector<Source> sources_;
   int width_, height_, bit_depth_;
   bool has_mask_;
+  double limit_;
   mutable std::mutex mutex_;
   mutable std::deque<Undistortion::Map> kept_;
 };
@@ -156,9 +161,9 @@ bool is_scaled(const Lens& lens, const Source& source) {
   return std::abs(width - source.width) <= 1 || std::abs(height - source.height) <= 1;
 }
 
-void check_mask(const Source& source) {
+void check_mask(const Source& source, double limit) {
   if (source.mask.empty()) return;
-  const PictureSpec spec = read_picture_spec(source.mask, Orientation::kIgnored);
+  const PictureSpec spec = read_picture_spec(source.mask, Orientation::kIgnored, limit);
   if (spec.width != source.width || spec.height != source.height)
     bad(source.mask, "has " + size_text(spec.width, spec.height) + " pixels, its picture " +
                          source.file.filename().string() + " has " +
@@ -182,7 +187,8 @@ Camera camera_of(const PosedPicture& picture, const Source& source) {
 
 }  // namespace
 
-LightField posed_light_field(std::vector<PosedPicture> pictures, const std::string& format) {
+LightField posed_light_field(std::vector<PosedPicture> pictures, const std::string& format,
+                             double memory_bytes) {
   if (pictures.size() < 2)
     throw Error(ErrorCode::kBadInput,
                 "a light field needs two pictures with cameras or more, there is " +
@@ -191,6 +197,7 @@ LightField posed_light_field(std::vector<PosedPicture> pictures, const std::stri
   light_field.kind = LightFieldKind::kUnstructured;
   light_field.format = format;
 
+  const double limit = opening_limit(memory_bytes);
   std::vector<Source> sources;
   std::vector<PictureSpec> specs;
   Undistortions undistortions;
@@ -198,7 +205,7 @@ LightField posed_light_field(std::vector<PosedPicture> pictures, const std::stri
   bool masked = false, turned = false;
   for (const PosedPicture& picture : pictures) {
     check(picture.lens, picture.file.string());
-    specs.push_back(read_picture_spec(picture.file, Orientation::kIgnored));
+    specs.push_back(read_picture_spec(picture.file, Orientation::kIgnored, limit));
     PictureSpec& spec = specs.back();
     Source source{picture.file, picture.mask, spec.width, spec.height, nullptr, spec.has_alpha};
     num_transparent += spec.has_alpha;
@@ -209,7 +216,7 @@ LightField posed_light_field(std::vector<PosedPicture> pictures, const std::stri
                             size_text(picture.lens.width, picture.lens.height) +
                             ", which is no scaled size of it; give the pictures that the cameras "
                             "were found with");
-    check_mask(source);
+    check_mask(source, limit);
     if (!is_pinhole(picture.lens)) source.undistortion = undistortions.of(picture.lens, source);
     num_undistorted += source.undistortion != nullptr;
     num_scaled += spec.width != picture.lens.width || spec.height != picture.lens.height;
@@ -225,6 +232,13 @@ LightField posed_light_field(std::vector<PosedPicture> pictures, const std::stri
   const bool one_size = std::all_of(specs.begin(), specs.end(), [&](const PictureSpec& spec) {
     return spec.width == light_field.width && spec.height == light_field.height;
   });
+
+  // The picture, where its pixels come from, itself again, a mask and the canvas.
+  constexpr double kBytesPerPixel = 6 + 8 + 6 + 2 + 8;
+  hold_against_limit(pictures.front().file.string(),
+                     "is brought to " + size_text(light_field.width, light_field.height) +
+                         " px with the other pictures",
+                     kBytesPerPixel * light_field.width * light_field.height, limit);
 
   auto& notes = light_field.notes;
   const int bit_depth = common_bit_depth(specs, notes);
@@ -248,8 +262,8 @@ LightField posed_light_field(std::vector<PosedPicture> pictures, const std::stri
         "without it");
   const bool has_mask =
       masked || num_transparent > 0 || !one_size || !undistortions.fill_the_pictures();
-  light_field.pixels = std::make_shared<PosedPictures>(std::move(sources), light_field.width,
-                                                       light_field.height, bit_depth, has_mask);
+  light_field.pixels = std::make_shared<PosedPictures>(
+      std::move(sources), light_field.width, light_field.height, bit_depth, has_mask, limit);
   place_by_cameras(light_field);
   return light_field;
 }

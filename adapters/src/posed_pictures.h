@@ -26,7 +26,9 @@ struct PosedPicture {
 
 /// An unstructured light field of photographs: undistorted to pinhole cameras of the same focal
 /// length and principal point when read, brought to a common size with the rest masked, placed by
-/// place_by_cameras. Reads headers only. Throws Error(kBadInput) naming the file.
-LightField posed_light_field(std::vector<PosedPicture> pictures, const std::string& format);
+/// place_by_cameras. Reads headers only. Throws Error(kBadInput) naming the file, also when a view
+/// takes more than opening_limit(memory_bytes).
+LightField posed_light_field(std::vector<PosedPicture> pictures, const std::string& format,
+                             double memory_bytes = 0);
 
 }  // namespace gigaray

@@ -2,13 +2,14 @@
 // Copyright (c) 2026 The Gigaray authors
 #include "positions_file.h"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <optional>
-#include <sstream>
 #include <string>
 #include <utility>
 
+#include "gigaray/adapters/input_file.h"
 #include "gigaray/error.h"
 #include "text.h"
 
@@ -23,24 +24,29 @@ struct Line {
 
 class Parser {
  public:
-  explicit Parser(const std::filesystem::path& path) : path_(path) {}
+  explicit Parser(const std::string& where) : where_(where) {}
 
-  std::vector<Line> lines() const {
+  /// One for each picture.
+  std::vector<Line> lines(std::string_view text, std::size_t pictures) const {
     std::vector<Line> lines;
-    std::istringstream stream(read_text(path_));
-    std::string text;
-    for (int number = 1; std::getline(stream, text); ++number) {
-      const auto words = split_words(text.substr(0, text.find('#')));
-      if (!words.empty()) lines.push_back(parse(number, words));
+    std::size_t found = 0;
+    for (int number = 1; !text.empty(); ++number) {
+      const std::size_t end = std::min(text.find('\n'), text.size());
+      const std::string_view line = text.substr(0, end);
+      text.remove_prefix(std::min(end + 1, text.size()));
+      const auto words = split_words(line.substr(0, line.find('#')));
+      if (!words.empty() && ++found <= pictures) lines.push_back(parse(number, words));
     }
+    if (found != pictures)
+      bad(std::to_string(found) + " positions for " + std::to_string(pictures) + " pictures");
     return lines;
   }
 
   [[noreturn]] void bad(int line, const std::string& what) const {
-    throw Error(ErrorCode::kBadInput, path_.string() + ":" + std::to_string(line) + ": " + what);
+    throw Error(ErrorCode::kBadInput, where_ + ":" + std::to_string(line) + ": " + what);
   }
   [[noreturn]] void bad(const std::string& what) const {
-    throw Error(ErrorCode::kBadInput, path_.string() + ": " + what);
+    throw Error(ErrorCode::kBadInput, where_ + ": " + what);
   }
 
  private:
@@ -58,24 +64,24 @@ class Parser {
 
   double coordinate(int number, const std::string& word) const {
     const auto value = parse_number(word);
-    if (!value || !std::isfinite(*value)) bad(number, "'" + word + "' is not a finite number");
+    if (!value || !std::isfinite(*value)) bad(number, in_quotes(word) + " is not a finite number");
     return *value;
   }
 
-  const std::filesystem::path& path_;
+  const std::string& where_;
 };
-
-std::string count_text(std::size_t lines, std::size_t pictures) {
-  return std::to_string(lines) + " positions for " + std::to_string(pictures) + " pictures";
-}
 
 }  // namespace
 
 std::vector<CameraPosition> read_positions(const std::filesystem::path& path,
                                            const std::vector<std::filesystem::path>& pictures) {
-  const Parser parser(path);
-  const std::vector<Line> lines = parser.lines();
-  if (lines.size() != pictures.size()) parser.bad(count_text(lines.size(), pictures.size()));
+  return parse_positions(read_text(path), path.string(), pictures);
+}
+
+std::vector<CameraPosition> parse_positions(std::string_view text, const std::string& where,
+                                            const std::vector<std::filesystem::path>& pictures) {
+  const Parser parser(where);
+  const std::vector<Line> lines = parser.lines(text, pictures.size());
 
   std::map<std::string, std::size_t> index_of;
   for (std::size_t i = 0; i < pictures.size(); ++i) {
@@ -91,10 +97,11 @@ std::vector<CameraPosition> read_positions(const std::filesystem::path& path,
     std::size_t picture = i;
     if (!line.name.empty()) {
       const auto match = index_of.find(line.name);
-      if (match == index_of.end()) parser.bad(line.number, "no picture is named " + line.name);
+      if (match == index_of.end())
+        parser.bad(line.number, "no picture is named " + in_quotes(line.name));
       picture = match->second;
     }
-    if (found[picture]) parser.bad(line.number, line.name + " has two positions");
+    if (found[picture]) parser.bad(line.number, in_quotes(line.name) + " has two positions");
     const auto [other, is_new] =
         line_at.emplace(std::pair(line.position.right, line.position.down), line.number);
     if (!is_new)

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
+#include <string_view>
 #include <vector>
 
 namespace gigaray {
@@ -18,5 +20,8 @@ struct CameraPosition {
 /// unknown or missing name.
 std::vector<CameraPosition> read_positions(const std::filesystem::path& path,
                                            const std::vector<std::filesystem::path>& pictures);
+/// The same of the text of a file; `where` begins the messages.
+std::vector<CameraPosition> parse_positions(std::string_view text, const std::string& where,
+                                            const std::vector<std::filesystem::path>& pictures);
 
 }  // namespace gigaray

@@ -3,11 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gigaray/adapters/input_file.h"
 #include "gigaray/adapters/rail_rectification.h"
 #include "numbered_names.h"
 #include "picture_files.h"
+#include "picture_loading.h"
 #include "text.h"
-#include "vips.h"
 
 namespace gigaray {
 namespace {
@@ -44,9 +45,8 @@ std::vector<fs::path> in_order(const fs::path& folder, std::vector<std::string>&
 std::optional<double> focal_of_exif(const fs::path& file, int width, int height) {
   constexpr const char* kField = "exif-ifd2-FocalLengthIn35mmFilm";
   constexpr double kDiagonalMm = 43.27;
-  use_vips();
   try {
-    const vips::VImage image = vips::VImage::new_from_file(file.c_str());
+    const vips::VImage image = open_picture(file, opening_limit());
     if (image.get_typeof(kField) == 0) return std::nullopt;
     const std::vector<std::string> words = split_words(image.get_string(kField));
     const auto mm = words.empty() ? std::nullopt : parse_number(words.front());
@@ -102,9 +102,10 @@ RailPhotographs open_rail_in_order(const fs::path& folder, const KnownLens& lens
   constexpr std::size_t kLeast = 3;
   if (files.size() < kLeast)
     bad(folder, "only " + std::to_string(files.size()) + " photographs; a rail needs 3 or more");
+  const double limit = opening_limit();
   std::vector<PictureSpec> specs;
   for (const fs::path& file : files) {
-    const PictureSpec spec = read_picture_spec(file, Orientation::kIgnored);
+    const PictureSpec spec = read_picture_spec(file, Orientation::kIgnored, limit);
     if (!specs.empty() &&
         (spec.width != specs.front().width || spec.height != specs.front().height))
       bad(file, "has " + size_text(spec.width, spec.height) + " pixels, " +

@@ -11,6 +11,7 @@
 #include <opencv2/core.hpp>
 
 #include "gigaray/adapters/feature_tracks.h"
+#include "gigaray/adapters/input_file.h"
 #include "gigaray/adapters/rail_rectification.h"
 #include "gigaray/calibration/known_order_start.h"
 #include "gigaray/calibration/rail_adjustment.h"
@@ -292,7 +293,8 @@ class RectifiedPictures : public PixelSource {
   Image<std::uint16_t> read(int view_idx) const override {
     const RailPhotograph& photograph = rail_.pictures.at(std::size_t(view_idx));
     PictureSpec spec;
-    Image<std::uint16_t> picture = decode_picture(photograph.file, Orientation::kIgnored, spec);
+    Image<std::uint16_t> picture =
+        decode_picture(photograph.file, Orientation::kIgnored, spec, opening_limit());
     if (picture.width() != photograph.lens.width || picture.height() != photograph.lens.height)
       bad(photograph.file.string() + ": has another size than when it was opened");
     if (spec.bit_depth < rail_.bit_depth) widen_to_16_bit(picture);
@@ -318,7 +320,7 @@ PictureSeries series_of(const std::vector<RailPhotograph>& pictures, int bit_dep
   return {int(pictures.size()), bit_depth, [&pictures, bit_depth](int idx) {
             PictureSpec spec;
             Image<std::uint16_t> picture =
-                decode_picture(pictures[idx].file, Orientation::kIgnored, spec);
+                decode_picture(pictures[idx].file, Orientation::kIgnored, spec, opening_limit());
             if (spec.bit_depth < bit_depth) widen_to_16_bit(picture);
             return picture;
           }};

@@ -2,12 +2,14 @@
 // Copyright (c) 2026 The Gigaray authors
 #include "gigaray/adapters/registry.h"
 
+#include "gigaray/adapters/path_text.h"
 #include "gigaray/adapters/photographs.h"
 
 #include <algorithm>
 #include <system_error>
 #include <utility>
 
+#include "gigaray/adapters/input_file.h"
 #include "picture_files.h"
 #include "readers.h"
 
@@ -91,9 +93,12 @@ LightField open_light_field(const fs::path& input, const OpenOptions& options) {
   if (!fs::exists(input, error))
     throw Error(error ? ErrorCode::kIo : ErrorCode::kBadInput,
                 input.string() + ": " + (error ? error.message() : "no such file or folder"));
+  if (!fs::is_directory(input, error)) check_input_file(input);
   const Reader& reader = reader_for(input, options);
   LightField light_field = reader.open(input, options);
   light_field.format = reader.name();
+  for (std::vector<View>* views : {&light_field.views, &light_field.left_out})
+    for (View& view : *views) view.name = view_name_of(view.name);
   if (light_field.kind != LightFieldKind::kUnstructured)
     for (const auto& [option, folder] :
          {std::pair("--images", options.images), std::pair("--masks", options.masks)})

@@ -6,9 +6,7 @@
 
 #include <array>
 #include <bit>
-#include <cerrno>
-#include <cstring>
-#include <system_error>
+#include <cstddef>
 
 #include "gigaray/error.h"
 
@@ -42,7 +40,7 @@ std::uint64_t checksum_of(const Head& head) {
 
 }  // namespace
 
-SectionWriter::SectionWriter(const std::filesystem::path& path) : file_(path), size_(sizeof(Head)) {
+SectionWriter::SectionWriter(AtomicFile file) : file_(std::move(file)), size_(sizeof(Head)) {
   file_.write(bytes_of(Head{}));
 }
 
@@ -53,30 +51,23 @@ Section SectionWriter::add(std::string_view bytes) {
   return section;
 }
 
-std::uint64_t SectionWriter::finish(std::string_view directory) {
+std::uint64_t SectionWriter::finish(std::string_view directory, const RunControl& control) {
   Head head;
   head.directory = add(directory);
   head.file_size = size_;
   head.checksum = checksum_of(head);
   file_.write_at_begin(bytes_of(head));
-  file_.commit();
+  file_.commit(control);
   return size_;
 }
 
-SectionReader::SectionReader(const std::filesystem::path& path) : path_(path) {
+SectionReader::SectionReader(const std::filesystem::path& path, double limit)
+    : file_(path), size_(file_.size()), limit_(limit) {
   const auto bad = [&](const std::string& what) {
     return Error(ErrorCode::kBadInput, path.string() + ": " + what);
   };
-  errno = 0;
-  file_.open(path, std::ios::binary);
-  if (!file_)
-    throw Error(ErrorCode::kIo, path.string() + ": can't be opened (" + std::strerror(errno) + ")");
-  std::error_code error;
-  size_ = std::filesystem::file_size(path, error);
-  if (error) throw Error(ErrorCode::kIo, path.string() + ": " + error.message());
   Head head;
-  file_.read(reinterpret_cast<char*>(&head), sizeof head);
-  const auto got = std::size_t(file_.gcount());
+  const std::size_t got = file_.read(0, reinterpret_cast<char*>(&head), sizeof head);
   if (got < sizeof head.magic || head.magic != std::to_array(kMagic))
     throw bad("is no sparse light field, or damaged at its begin");
   if (got < sizeof head) throw bad("is cut short");
@@ -95,18 +86,14 @@ SectionReader::SectionReader(const std::filesystem::path& path) : path_(path) {
 
 std::string SectionReader::read(const Section& section) const {
   if (section.offset > size_ || section.size > size_ - section.offset)
-    throw Error(ErrorCode::kBadInput, path_.string() + ": is damaged: a section lies outside");
-  std::string bytes(section.size, '\0');
-  {
-    const std::lock_guard lock(mutex_);
-    file_.clear();
-    file_.seekg(std::streamoff(section.offset));
-    file_.read(bytes.data(), std::streamsize(bytes.size()));
-    if (std::size_t(file_.gcount()) != bytes.size())
-      throw Error(ErrorCode::kIo, path_.string() + ": can't be read to its end");
-  }
+    throw Error(ErrorCode::kBadInput, path().string() + ": is damaged: a section lies outside");
+  hold_against_limit(path().string(), "has a section of " + std::to_string(section.size) + " bytes",
+                     double(section.size), limit_);
+  const std::string bytes = file_.read(section.offset, section.size);
+  if (bytes.size() != section.size)
+    throw Error(ErrorCode::kIo, path().string() + ": can't be read to its end");
   if (checksum_of(bytes) != section.checksum)
-    throw Error(ErrorCode::kBadInput, path_.string() +
+    throw Error(ErrorCode::kBadInput, path().string() +
                                           ": is damaged: a checksum is wrong between bytes " +
                                           std::to_string(section.offset) + " and " +
                                           std::to_string(section.offset + section.size));

@@ -4,12 +4,11 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <fstream>
-#include <mutex>
 #include <string>
 #include <string_view>
 
 #include "gigaray/adapters/atomic_output.h"
+#include "gigaray/adapters/input_file.h"
 
 namespace gigaray {
 
@@ -25,10 +24,10 @@ struct Section {
 
 class SectionWriter {
  public:
-  explicit SectionWriter(const std::filesystem::path& path);
+  explicit SectionWriter(AtomicFile file);
   Section add(std::string_view bytes);
   /// Adds the directory and puts the file in its place. Returns its size.
-  std::uint64_t finish(std::string_view directory);
+  std::uint64_t finish(std::string_view directory, const RunControl& control);
 
  private:
   AtomicFile file_;
@@ -39,17 +38,17 @@ class SectionWriter {
 /// cut short, damaged.
 class SectionReader {
  public:
-  explicit SectionReader(const std::filesystem::path& path);
+  /// limit: bytes that a section may have.
+  SectionReader(const std::filesystem::path& path, double limit);
   std::string read(const Section& section) const;
   std::string directory() const { return read(directory_); }
   std::uint64_t size() const { return size_; }
-  const std::filesystem::path& path() const { return path_; }
+  const std::filesystem::path& path() const { return file_.path(); }
 
  private:
-  std::filesystem::path path_;
-  mutable std::mutex mutex_;
-  mutable std::ifstream file_;
+  InputFile file_;
   std::uint64_t size_ = 0;
+  double limit_;
   Section directory_;
 };
 

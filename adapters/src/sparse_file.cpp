@@ -3,26 +3,53 @@
 #include "gigaray/adapters/sparse_file.h"
 
 #include <algorithm>
+#include <atomic>
 #include <limits>
 #include <mutex>
+#include <thread>
 
+#include "gigaray/adapters/input_file.h"
 #include "gigaray/parallel.h"
 #include "gigaray/sparse_coding.h"
+#include "picture_files.h"
 #include "sparse_file_parts.h"
 
 namespace gigaray {
 
 struct SparseFile::Impl {
-  explicit Impl(const std::filesystem::path& path)
-      : file(path),
-        directory(decode_directory(file.directory(), path.string())),
+  Impl(const std::filesystem::path& path, double most)
+      : limit(most),
+        file(path, most),
+        directory(decode_directory(file.directory(), path.string(), most)),
         tuples(directory.tuples.size()),
         read_once(std::make_unique<std::once_flag[]>(directory.tuples.size())) {
     for (std::size_t i = 0; i < tuples.size(); ++i) {
       tuples[i].least_slope = directory.tuples[i].least_slope;
       tuples[i].largest_slope = directory.tuples[i].largest_slope;
     }
+    hold_sizes();
   }
+
+  /// Holds what the directory states against the bytes that are there, and a picture against the
+  /// limit.
+  void hold_sizes() const {
+    const SparseShape& shape = directory.shape;
+    const std::string place = file.path().string();
+    const std::string claim = "states " + size_text(shape.width, shape.height) + " px";
+    for (const std::vector<Section>& view : directory.differences)
+      for (int band = 0; band < shape.num_bands(); ++band)
+        if (!may_hold_difference(view[band].size, double(shape.width) * shape.band(band).size()))
+          throw Error(ErrorCode::kBadInput, place + ": is damaged: it " + claim + " and has " +
+                                                std::to_string(view[band].size) +
+                                                " bytes for a band of them");
+    // The picture, and of every band that is decoded meanwhile what is drawn and the planes.
+    constexpr double kPixel = 6, kBandPixel = 56;
+    const double rows = std::min(double(shape.height), double(threads()) * shape.band_rows);
+    hold_against_limit(place, claim, shape.width * (kPixel * shape.height + kBandPixel * rows),
+                       limit);
+  }
+
+  static unsigned threads() { return std::max(1u, std::thread::hardware_concurrency()); }
 
   /// Runs a decoder of a section; what it says of damage gets the name of the file.
   template <class Decode>
@@ -38,13 +65,14 @@ struct SparseFile::Impl {
   void read_tuples(int band) const {
     std::call_once(read_once[band], [&] {
       TupleBand found = decoded(directory.tuples[band].section, [&](const std::string& bytes) {
-        return decode_tuples(directory.shape, band, bytes);
+        return decode_tuples(directory.shape, band, bytes, (limit - taken) / threads());
       });
       // Other threads look at the slopes meanwhile, which the directory told.
       if (found.least_slope != tuples[band].least_slope ||
           found.largest_slope != tuples[band].largest_slope)
         throw Error(ErrorCode::kBadInput,
                     file.path().string() + ": is damaged: its tuples are not what it says");
+      taken += double(found.tuples.size() * sizeof(SparseTuple));
       tuples[band].tuples = std::move(found.tuples);
     });
   }
@@ -63,9 +91,11 @@ struct SparseFile::Impl {
     });
   }
 
+  double limit;
   SectionReader file;
   SparseDirectory directory;
-  mutable SparseTuples tuples;  ///< filled as they are asked for
+  mutable std::atomic<double> taken = 0;  ///< bytes of the tuples that were read
+  mutable SparseTuples tuples;            ///< filled as they are asked for
   std::unique_ptr<std::once_flag[]> read_once;
 };
 
@@ -85,7 +115,8 @@ class PicturesOfSparseFile : public PixelSource {
 
 }  // namespace
 
-SparseFile::SparseFile(const std::filesystem::path& path) : impl_(std::make_shared<Impl>(path)) {}
+SparseFile::SparseFile(const std::filesystem::path& path, double memory_bytes)
+    : impl_(std::make_shared<Impl>(path, opening_limit(memory_bytes))) {}
 
 LightField SparseFile::light_field() const {
   LightField light_field = impl_->directory.light_field;

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "described_light_field.h"
+#include "gigaray/adapters/input_file.h"
 #include "gigaray/sparse_coding.h"
 
 namespace gigaray {
@@ -13,8 +14,6 @@ namespace {
 
 using nlohmann::json;
 using nlohmann::ordered_json;
-
-constexpr std::size_t kMostDirectory = std::size_t(1) << 30;
 
 ordered_json to_json(const Section& section) {
   return {section.offset, section.size, section.checksum};
@@ -75,9 +74,16 @@ std::string encode_directory(const SparseDirectory& directory) {
   return compressed(root.dump(-1, ' ', false, ordered_json::error_handler_t::replace));
 }
 
-SparseDirectory decode_directory(std::string_view bytes, const std::string& where) {
+SparseDirectory decode_directory(std::string_view bytes, const std::string& where, double limit) {
+  std::string text;
   try {
-    return parse(json::parse(decompressed(bytes, kMostDirectory)));
+    text = decompressed(bytes, std::size_t(std::min(limit, double(kMostJson))));
+  } catch (const Error& problem) {
+    throw Error(ErrorCode::kBadInput, where + ": " + problem.what());
+  }
+  check_json(text, where, limit);
+  try {
+    return parse(json::parse(text));
   } catch (const json::exception& problem) {
     throw Error(ErrorCode::kBadInput,
                 where + ": is damaged: its directory can't be read (" + problem.what() + ")");

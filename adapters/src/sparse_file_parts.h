@@ -27,8 +27,8 @@ struct SparseDirectory {
 };
 
 std::string encode_directory(const SparseDirectory& directory);
-/// Throws Error(kBadInput) beginning with `where`.
-SparseDirectory decode_directory(std::string_view bytes, const std::string& where);
+/// limit: bytes that it may take. Throws Error(kBadInput) beginning with `where`.
+SparseDirectory decode_directory(std::string_view bytes, const std::string& where, double limit);
 
 /// Gives pixels that no tuple draws the colour of the nearest that one does, in their row.
 void fill_undrawn(DrawnRows& drawn);

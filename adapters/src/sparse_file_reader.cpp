@@ -26,7 +26,7 @@ class SparseFileReader : public Reader {
 
   LightField open(const fs::path& input, const OpenOptions& options) const override {
     refuse_direction(options, "a .grl file states");
-    LightField light_field = SparseFile(input).light_field();
+    LightField light_field = SparseFile(input, options.memory_bytes).light_field();
     check(light_field);
     return light_field;
   }

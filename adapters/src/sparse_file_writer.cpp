@@ -28,7 +28,7 @@ struct CodedBand {
 
 }  // namespace
 
-SparseFileReport write_sparse_file(const std::filesystem::path& path, const LightField& light_field,
+SparseFileReport write_sparse_file(AtomicFile output, const LightField& light_field,
                                    const DisparityOfView& disparity,
                                    const SparseFileOptions& options, const RunControl& control) {
   check(light_field);
@@ -46,7 +46,7 @@ SparseFileReport write_sparse_file(const std::filesystem::path& path, const Ligh
       sparse_shape(light_field, light_field.pixels->bit_depth(),
                    options.band_rows > 0 ? options.band_rows : usual_band_rows(light_field));
   const SparseShape& shape = directory.shape;
-  SectionWriter file(path);
+  SectionWriter file(std::move(output));
 
   const SparseTuples tuples = choose_tuples(light_field, shape, disparity, options.sparse, control);
   SparseFileReport report;
@@ -82,7 +82,7 @@ SparseFileReport write_sparse_file(const std::filesystem::path& path, const Ligh
       report.unexplained += band.unexplained;
     }
   }
-  report.file_bytes = file.finish(encode_directory(directory));
+  report.file_bytes = file.finish(encode_directory(directory), control);
   control.progress("encode", 1, 1);
   return report;
 }

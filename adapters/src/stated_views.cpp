@@ -9,6 +9,7 @@
 #include <system_error>
 #include <utility>
 
+#include "gigaray/adapters/input_file.h"
 #include "mask_folder.h"
 #include "picture_files.h"
 #include "picture_folder.h"
@@ -21,10 +22,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void complete_lens(StatedView& view, const fs::path& picture) {
+void complete_lens(StatedView& view, const fs::path& picture, double limit) {
   Lens& lens = view.lens;
   if (lens.width > 0) return;
-  const PictureSpec spec = read_picture_spec(picture, Orientation::kIgnored);
+  const PictureSpec spec = read_picture_spec(picture, Orientation::kIgnored, limit);
   lens.width = spec.width;
   lens.height = spec.height;
   if (view.may_be_of_a_copy && lens.params.size() >= 4) {
@@ -84,13 +85,14 @@ LightField open_stated_views(std::vector<StatedView> views, const fs::path& file
   const std::vector<std::string> view_name = view_names(names);
 
   const PictureLookup beside_file(file.parent_path());
+  const double limit = opening_limit(options.memory_bytes);
   std::vector<PosedPicture> pictures;
   for (std::size_t i = 0; i < views.size(); ++i) {
     StatedView& view = views[i];
     PosedPicture picture;
     picture.file = folder / names[i];
     picture.name = view_name[i];
-    complete_lens(view, picture.file);
+    complete_lens(view, picture.file, limit);
     picture.lens = view.lens;
     picture.rotation = view.rotation;
     picture.translation = view.translation;
@@ -103,7 +105,7 @@ LightField open_stated_views(std::vector<StatedView> views, const fs::path& file
   }
   std::vector<std::string> notes;
   if (!options.masks.empty()) attach_masks(pictures, names, options.masks, notes);
-  LightField light_field = posed_light_field(std::move(pictures), format);
+  LightField light_field = posed_light_field(std::move(pictures), format, options.memory_bytes);
   light_field.notes.insert(light_field.notes.begin(), notes.begin(), notes.end());
   return light_field;
 }

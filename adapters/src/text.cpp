@@ -3,13 +3,8 @@
 #include "text.h"
 
 #include <algorithm>
-#include <cerrno>
 #include <charconv>
-#include <fstream>
-#include <iterator>
 #include <system_error>
-
-#include "gigaray/error.h"
 
 namespace gigaray {
 namespace {
@@ -87,6 +82,7 @@ std::vector<std::string> split_words(std::string_view line) {
   constexpr std::string_view kSeparators = " \t\r\n,;";
   std::vector<std::string> words;
   for (std::size_t begin = 0;
+       words.size() < kMostWords &&
        (begin = line.find_first_not_of(kSeparators, begin)) != std::string_view::npos;) {
     const std::size_t end = std::min(line.find_first_of(kSeparators, begin), line.size());
     words.emplace_back(line.substr(begin, end - begin));
@@ -103,21 +99,7 @@ std::string in_quotes(std::string_view word) {
   return text;
 }
 
-std::string read_bytes(const std::filesystem::path& path) {
-  std::error_code ignored;
-  if (std::filesystem::is_directory(path, ignored))
-    throw Error(ErrorCode::kIo, path.string() + ": is a folder, not a file");
-  errno = 0;
-  std::ifstream file(path, std::ios::binary);
-  std::string bytes{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-  if (!file.is_open() || file.bad())
-    throw Error(ErrorCode::kIo,
-                path.string() + ": can't be read (" + std::generic_category().message(errno) + ")");
-  return bytes;
-}
-
-std::string read_text(const std::filesystem::path& path) {
-  std::string bytes = read_bytes(path);
+std::string as_utf8(std::string bytes) {
   if (bytes.starts_with("\xef\xbb\xbf")) return bytes.substr(3);
   if (bytes.starts_with("\xff\xfe")) return utf8_of_utf16(bytes, 0, 1);
   if (bytes.starts_with("\xfe\xff")) return utf8_of_utf16(bytes, 1, 0);

@@ -2,7 +2,6 @@
 // Copyright (c) 2026 The Gigaray authors
 #pragma once
 
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -23,17 +22,16 @@ std::string lower(std::string text);
 /// Upper case of ASCII letters.
 std::string upper(std::string text);
 
-/// Words between white space, commas and semicolons.
+/// Words between white space, commas and semicolons: the first kMostWords of them, which is more
+/// than any line has that is meant.
+inline constexpr std::size_t kMostWords = 1000;
 std::vector<std::string> split_words(std::string_view line);
 
 /// A word of a file for a message: in quotes, shortened, control characters replaced.
 std::string in_quotes(std::string_view word);
 
-/// Everything in a file. Throws Error(kIo) naming it.
-std::string read_bytes(const std::filesystem::path& path);
-
-/// A file of text as UTF-8: a byte order mark is taken away, UTF-16 with one is converted. Throws
-/// Error(kIo) naming it.
-std::string read_text(const std::filesystem::path& path);
+/// What a file of text holds as UTF-8: a byte order mark is taken away, UTF-16 with one is
+/// converted.
+std::string as_utf8(std::string bytes);
 
 }  // namespace gigaray

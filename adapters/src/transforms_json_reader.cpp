@@ -14,6 +14,7 @@
 #include <system_error>
 
 #include "camera_position.h"
+#include "gigaray/adapters/input_file.h"
 #include "picture_files.h"
 #include "readers.h"
 #include "stated_views.h"
@@ -239,9 +240,9 @@ class TransformsJsonReader : public Reader {
     refuse_direction(options, "transforms.json states");
     const std::vector<fs::path> files = files_of_cameras(input);
     const fs::path &file = files.front(), folder = file.parent_path();
-    LightField light_field =
-        open_stated_views(parse_transforms_json(read_text(file), file.string()), file,
-                          {folder, folder / "images"}, options, kName);
+    LightField light_field = open_stated_views(
+        parse_transforms_json(read_json_text(file, options.memory_bytes), file.string()), file,
+        {folder, folder / "images"}, options, kName);
     std::string others;
     for (std::size_t i = 1; i < files.size(); ++i)
       others += (others.empty() ? "" : ", ") + files[i].filename().string();

@@ -8,7 +8,6 @@
 #include <cctype>
 #include <cerrno>
 #include <chrono>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
@@ -17,7 +16,9 @@
 #include "baselines/pair.h"
 #include "baselines/pictures.h"
 #include "gigaray/adapters/child_process.h"
+#include "gigaray/adapters/input_file.h"
 #include "gigaray/adapters/maps.h"
+#include "gigaray/scratch_file.h"
 
 namespace gigaray::baselines {
 namespace {
@@ -28,7 +29,7 @@ namespace fs = std::filesystem;
 class WorkFolder {
  public:
   WorkFolder() {
-    std::string pattern = (fs::temp_directory_path() / "gigaray-external-XXXXXX").string();
+    std::string pattern = temporary_folder() + "/gigaray-external-XXXXXX";
     if (!mkdtemp(pattern.data()))
       throw Error(ErrorCode::kIo,
                   pattern + ": can't be made: " + std::generic_category().message(errno));
@@ -57,9 +58,9 @@ Description read_description(const fs::path& path) {
   const auto bad = [&](const std::string& what) {
     return Error(ErrorCode::kBadInput, path.string() + ": " + what);
   };
-  std::ifstream file(path);
-  if (!file) throw Error(ErrorCode::kBadInput, path.string() + ": can't be opened");
-  const auto root = nlohmann::json::parse(file, nullptr, false);
+  const std::string json = read_text(path);
+  check_json(json, path.string());
+  const auto root = nlohmann::json::parse(json, nullptr, false);
   if (!root.is_object()) throw bad("is not a JSON object");
   for (const auto& [key, value] : root.items()) {
     static const std::vector<std::string> known{"name",    "title",    "reference", "parameters",

@@ -56,7 +56,7 @@ int main(int argc, char** argv) {
   if (setup.input && !chosen->takes_input)
     throw Error(ErrorCode::kInvalidArgument, name + ": makes its own pictures; leave --input out");
 
-  AtomicFolder folder(output, "gigaray experiment", "results.json");
+  AtomicFolder folder(output, "gigaray experiment");
   Report report(folder.path(), repeats);
   chosen->run(setup, report);
   const nlohmann::ordered_json root{{"format", "gigaray experiment"},

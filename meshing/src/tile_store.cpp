@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 
 #include "gigaray/error.h"
 
@@ -48,7 +47,7 @@ void TileStore::add(const PointCloud& cloud, std::span<const int> levels) {
 }
 
 void TileStore::spill() {
-  if (!file_.is_open()) file_ = ScratchFile(std::filesystem::temp_directory_path());
+  if (!file_.is_open()) file_ = ScratchFile(temporary_folder());
   for (auto& [index, tile] : tiles_) {
     if (tile.points.empty()) continue;
     const std::size_t bytes = tile.points.size() * sizeof(Record);

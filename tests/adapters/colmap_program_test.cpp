@@ -3,7 +3,10 @@
 // With the real program, on rendered photographs.
 #include "gigaray/adapters/colmap_program.h"
 
+#include <fcntl.h>
+#include <signal.h>
 #include <stdlib.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <chrono>
@@ -180,6 +183,17 @@ TEST(ChildProcesses, OutputAndStatusComeBack) {
   EXPECT_EQ(child.result(), "ended with status 3");
 }
 
+/// Ends a process within five seconds? A zombie that nobody has reaped yet is dead as well.
+bool ends(pid_t process) {
+  for (int i = 0; i < 100; ++i) {
+    std::ifstream stat("/proc/" + std::to_string(process) + "/stat");
+    std::string id, name, state;
+    if (!(stat >> id >> name >> state) || state == "Z") return true;
+    usleep(50000);
+  }
+  return false;
+}
+
 TEST(ChildProcesses, WholeGroupIsKilledWithIt) {
   std::string printed;
   {
@@ -187,16 +201,44 @@ TEST(ChildProcesses, WholeGroupIsKilledWithIt) {
     while (printed.find('\n') == std::string::npos)
       if (const auto text = child.read(milliseconds(100))) printed += *text;
   }
-  const pid_t grandchild = std::stoi(printed);
-  bool gone = false;
-  for (int i = 0; i < 100 && !gone; ++i) {
-    // A zombie that nobody has reaped yet is dead as well.
-    std::ifstream stat("/proc/" + std::to_string(grandchild) + "/stat");
-    std::string id, name, state;
-    gone = !(stat >> id >> name >> state) || state == "Z";
-    if (!gone) usleep(50000);
+  EXPECT_TRUE(ends(std::stoi(printed)));
+}
+
+TEST(ChildProcesses, WholeGroupEndsWithAProcessThatIsKilled) {
+  int ends_of_pipe[2];
+  ASSERT_EQ(pipe2(ends_of_pipe, O_CLOEXEC), 0);
+  const pid_t parent = fork();
+  if (parent == 0) {
+    ChildProcess first({"sh", "-c", "sleep 1000 & echo $! $$; wait"}, {});
+    ChildProcess second({"sh", "-c", "sleep 1000 & echo $! $$; wait"}, {});
+    for (ChildProcess* child : {&first, &second}) {
+      std::string printed;
+      while (printed.find('\n') == std::string::npos)
+        if (const auto text = child->read(milliseconds(100))) printed += *text;
+      if (write(ends_of_pipe[1], printed.data(), printed.size()) < 0) _exit(1);
+    }
+    close(ends_of_pipe[1]);
+    pause();
   }
-  EXPECT_TRUE(gone);
+  close(ends_of_pipe[1]);
+  std::string printed;
+  char bytes[100];
+  for (ssize_t count; (count = read(ends_of_pipe[0], bytes, sizeof bytes)) > 0;)
+    printed.append(bytes, std::size_t(count));
+  close(ends_of_pipe[0]);
+  std::istringstream numbers(printed);
+  std::vector<pid_t> children(std::istream_iterator<pid_t>(numbers), {});
+  ASSERT_EQ(children.size(), 4u) << printed;
+  for (const pid_t child : children) EXPECT_EQ(kill(child, 0), 0);
+  kill(parent, SIGKILL);
+  ASSERT_EQ(waitpid(parent, nullptr, 0), parent);
+  for (const pid_t child : children) EXPECT_TRUE(ends(child));
+}
+
+TEST(ChildProcesses, ASignalThatEndsTheProgramIsTold) {
+  ChildProcess child({"sh", "-c", "kill -SEGV $$"}, {});
+  while (child.read(milliseconds(100))) continue;
+  EXPECT_EQ(child.result(), "was killed by signal 11");
 }
 
 TEST(ChildProcesses, ProgramThatIsNotThereIsNamed) {

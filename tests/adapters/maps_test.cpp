@@ -241,7 +241,8 @@ TEST_F(DepthOutput, MetricDepthIsThereWhenTheRigIsKnown) {
     if (known) light_field.rig.baseline = 0.025;
     light_field.rig.focus_distance = 5;
     const std::filesystem::path target = folder / (known ? "known" : "unknown");
-    DepthFolder out(target, {}, light_field);
+    DepthFolder out(target, {}, {});
+    out.describe(light_field);
     out.write_view(0, disparity, confidence, {-1, 1}, true);
     out.commit("{}");
     EXPECT_EQ(exists(target / "depth.pfm"), known);
@@ -261,7 +262,8 @@ TEST_F(DepthOutput, UnstructuredViewsGetDepthAndTheirPictureInTheirOwnSize) {
   light_field.cameras[0].height = 3;
   FloatMap disparity(5, 3, 1, 0.25f);
   disparity(1, 1) = 0;
-  DepthFolder out(folder / "out", {}, light_field);
+  DepthFolder out(folder / "out", {}, {});
+  out.describe(light_field);
   out.write_view(0, disparity, FloatMap(5, 3, 1, 1), {-1, 1}, true);
   out.commit("{}");
   for (const auto& place : {folder / "out", folder / "out" / "a"}) {

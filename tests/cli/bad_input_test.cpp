@@ -4,6 +4,7 @@
 // What a user may do wrong, and what may go wrong under a run: one line that names the file or the
 // option, the right exit code, and nothing that looks like a result.
 #include <signal.h>
+#include <sys/stat.h>
 
 #include <opencv2/imgcodecs.hpp>
 
@@ -112,6 +113,35 @@ TEST_F(BadInput, AnOptionThatCannotBeMeantIsNamed) {
   expect_refusal("probe made -o out --at 3 3 --view 9", 2, "view 9");
 }
 
+/// In every place where a file is named: a pipe would never answer, a device never end.
+TEST_F(BadInput, PipesAndDevicesAreNoFiles) {
+  ASSERT_EQ(mkfifo((folder / "pipe").c_str(), 0600), 0);
+  fs::create_directory(folder / "pictures");
+  for (const char* name : {"v1.png", "v2.png"}) save(std::string("pictures/") + name);
+  for (const std::string place : {"pipe", "/dev/zero"}) {
+    for (const std::string command : {"info ", "decode -o out ", "depth -o out "})
+      expect_refusal(command + place, 1, place, "not a file");
+    expect_refusal("info pictures --positions " + place, 1, place, "not a file");
+    expect_refusal("evaluate made " + place, 1, place);
+    expect_refusal("evaluate " + place + " made/truth.pfm", 1, place);
+    expect_refusal("compare made -o out --external " + place, 1, place);
+  }
+  fs::remove(folder / "made/gigaray.json");
+  fs::create_symlink(folder / "pipe", folder / "made/gigaray.json");
+  expect_refusal("cloud made -o out.ply", 1, "made");
+}
+
+TEST_F(BadInput, APictureThatUnfoldsBeyondTheLimitIsNamed) {
+  fs::create_directory(folder / "bombs");
+  for (const char* name : {"v1.png", "v2.png"})
+    ASSERT_TRUE(cv::imwrite((folder / "bombs" / name).string(),
+                            cv::Mat(8000, 9000, CV_8U, cv::Scalar(0)),
+                            {cv::IMWRITE_PNG_BILEVEL, 1}));
+  const std::string least = " --memory 0.25";  // GiB
+  expect_refusal("info bombs" + least, 1, "v1.png", "9000×8000");
+  expect_refusal("depth bombs -o out --disparity 0 1" + least, 1, "v1.png", "9000×8000");
+}
+
 TEST_F(BadInput, WithoutADeviceOneLineSaysSo) {
   fs::create_directory(folder / "none");
   const std::string none = "OCL_ICD_VENDORS=$PWD/none";
@@ -172,11 +202,12 @@ TEST_F(BadInput, AKilledRunLeavesNothingThatLooksLikeAResult) {
     ASSERT_TRUE(WIFSIGNALED(status)) << stage;
     EXPECT_FALSE(fs::exists(folder / "out")) << stage;
     for (const std::string& name : names_in("."))
-      EXPECT_TRUE(!name.starts_with("out") || name.starts_with("out.partial-")) << name;
+      EXPECT_TRUE(!name.starts_with("out") && !name.ends_with("out")) << name;
     EXPECT_TRUE(names_in("work").empty()) << stage;
   }
   EXPECT_EQ(run("depth made -o out --views centre").exit_code, 0);
   EXPECT_TRUE(fs::exists(folder / "out/disparity.pfm"));
+  for (const std::string& name : names_in(".")) EXPECT_FALSE(name.starts_with(".")) << name;
 }
 
 TEST_F(BadInput, ADamagedKernelCacheIsBuiltAgain) {

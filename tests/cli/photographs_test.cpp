@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Gigaray authors
 // Depth of photographs from anywhere: with known cameras, and with those that COLMAP finds.
+#include <signal.h>
+
 #include <nlohmann/json.hpp>
 
 #include "cli/program_test.h"
@@ -73,6 +75,37 @@ TEST_F(Photographs, AloneGetTheirCamerasFromColmap) {
       run(std::string("depth walk/images -o out --find-cameras --views centre") + kFast);
   ASSERT_EQ(again.exit_code, 0) << again.err;
   EXPECT_NE(again.err.find("as COLMAP found them before"), std::string::npos) << again.err;
+}
+
+TEST_F(Photographs, AFolderOfSomebodyElseInPlaceOfTheCamerasStays) {
+  photograph();
+  std::filesystem::create_directory(folder / "out.colmap");
+  for (const char* name : {"colmap.log", "database.db", "photographs.txt"}) {
+    std::ofstream(folder / "out.colmap" / name) << "mine";
+    expect_refusal("depth walk/images -o out --find-cameras", 2, "out.colmap", "--replace");
+    EXPECT_EQ(text_of(std::string("out.colmap/") + name), "mine");
+  }
+}
+
+TEST_F(Photographs, ColmapEndsWithTheRunThatIsKilled) {
+  photograph();
+  const auto processes = [&] {
+    int count = 0;
+    for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
+      std::ifstream file(entry.path() / "cmdline", std::ios::binary);
+      const std::string words{std::istreambuf_iterator<char>(file), {}};
+      count += words.find(folder.string()) != std::string::npos;
+    }
+    return count;
+  };
+  const pid_t child = start({"depth", "walk/images", "-o", "out", "--find-cameras"});
+  ASSERT_TRUE(wait_until([&] { return processes() > 0; })) << text_of(".err");
+  kill(child, SIGKILL);
+  ASSERT_EQ(waitpid(child, nullptr, 0), child);
+  EXPECT_TRUE(wait_until([&] { return processes() == 0; }));
+  EXPECT_FALSE(names_in(".").contains("out.colmap"));
+  EXPECT_EQ(run("synth planes -o small --width 16 --height 16").exit_code, 0);
+  EXPECT_EQ(names_in("."), (Names{"small", "walk"})) << "the next run tidies up";
 }
 
 TEST_F(Photographs, WithoutColmapOneLineSaysSo) {

@@ -108,13 +108,14 @@ class ProgramTest : public testing::Test {
     return text.str();
   }
 
-  /// Names of what is in a folder, without the outputs of run().
+  /// Names of what is in a folder, without the outputs of run() and the manifest of an output.
   std::set<std::string> names_in(const std::filesystem::path& name) const {
     std::set<std::string> names;
     for (const auto& entry : std::filesystem::directory_iterator(folder / name))
       names.insert(entry.path().filename().string());
     names.erase(".out");
     names.erase(".err");
+    names.erase(".gigaray-output.json");
     return names;
   }
 

@@ -128,6 +128,19 @@ TEST(MemoryPlan, FewerViewsThatKeepDepthTakeLess) {
   EXPECT_LT(plan_memory(light_field, options, kHypotheses).forecast.memory_all_bytes, all);
 }
 
+TEST(MemoryPlan, WhatTheCallerTakesCounts) {
+  const LightField light_field = described(row_of_views(20), 640, 480);
+  DepthOptions options = auto_options();
+  options.memory_bytes = 64e9;
+  const double alone = plan_memory(light_field, options, kHypotheses).forecast.memory_bytes;
+  options.memory_beside = 100 * kMiB;
+  EXPECT_DOUBLE_EQ(plan_memory(light_field, options, kHypotheses).forecast.memory_bytes,
+                   alone + 100 * kMiB);
+  options.memory_bytes = alone + 50 * kMiB;
+  EXPECT_LE(plan_memory(light_field, options, kHypotheses).forecast.memory_bytes,
+            options.memory_bytes);
+}
+
 TEST(MemoryPlan, AnImpossibleLimitSaysWhatItTakes) {
   const LightField light_field = described(row_of_views(100), 1920, 1080);
   for (const char* preset : {"paper", "auto"}) {

@@ -60,7 +60,7 @@ TEST_P(PipelineBands, MemoryAndFilesDontChangeTheResult) {
   // Every distinct plan between the least memory and plenty.
   std::set<std::pair<int, bool>> plans;
   bool on_disk = false;
-  const double least = least_memory(field.light_field, options);
+  const double least = least_limit_by_trial(field.light_field, options);
   for (double more = 0; more < 16e6 && plans.size() < 5; more = more * 1.6 + 1e5) {
     options.memory_bytes = least + more;
     const Forecast plan = forecast(field.light_field, options);

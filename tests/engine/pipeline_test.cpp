@@ -233,7 +233,7 @@ TEST(Pipeline, CancelStopsTheRunAndLeavesNoFile) {
   const ScopedFolder work;
   DepthOptions options = job("auto", {-1, 2}, 61);
   options.work_folder = work.path;
-  options.memory_bytes = least_memory(field.light_field, options);
+  options.memory_bytes = least_limit_by_trial(field.light_field, options);
   ASSERT_GT(forecast(field.light_field, options).disk_bytes, 0);
   for (const double stop_at : {0.0, 0.3, 0.76}) {
     RunControl control;
@@ -287,7 +287,7 @@ TEST(Pipeline, AWorkFolderThatCantBeWrittenIsNamed) {
   DepthOptions options = job("paper", {-1, 2}, 31);
   options.work_folder = work.path / "file";
   std::ofstream(options.work_folder) << "not a folder";
-  options.memory_bytes = least_memory(field.light_field, options);
+  options.memory_bytes = least_limit_by_trial(field.light_field, options);
   const RunControl control;
   expect_error(ErrorCode::kIo, {options.work_folder},
                [&] { reconstruct(field.light_field, options, {}, control); });

@@ -8,6 +8,7 @@
 
 #include "engine/cache_fixture.h"
 #include "opencl/buffer.h"
+#include "opencl/pocl_cache.h"
 
 namespace gigaray::opencl {
 namespace {
@@ -153,6 +154,22 @@ TEST_F(ProgramCache, InfoCountsAndClearRemoves) {
   auto fresh = Device::open();
   EXPECT_EQ(result(fresh), 16);
   EXPECT_EQ(fresh.counters().built, 1);
+}
+
+TEST_F(ProgramCache, WhatARunUsesIsNotCleared) {
+  auto device = Device::open();
+  result(device);
+  std::filesystem::create_directory(folder_ / "pocl");
+  {
+    const PoclCache other(folder_ / "pocl");
+    overwrite(folder_ / "pocl/kernel", "of the other run");
+    EXPECT_THROW(clear_kernel_cache(), Error);
+    EXPECT_TRUE(std::filesystem::exists(folder_ / "pocl/kernel"));
+    EXPECT_EQ(program_files().size(), 1u);
+  }
+  clear_kernel_cache();
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "pocl/kernel"));
+  EXPECT_TRUE(program_files().empty());
 }
 
 TEST(KernelSource, EmbeddedTextIsTheFile) {

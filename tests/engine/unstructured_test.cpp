@@ -93,7 +93,7 @@ TEST_P(Unstructured, MemoryDoesNotChangeTheResult) {
   ASSERT_EQ(forecast(field.light_field, options).bands, 1);
   Reconstruction whole = run(field.light_field, options);
   const DepthResult expected = all_of(whole);
-  const double least = least_memory(field.light_field, options);
+  const double least = least_limit_by_trial(field.light_field, options);
   std::set<int> bands;
   for (double more = 0; more < 16e6 && bands.size() < 3; more = more * 1.6 + 1e5) {
     options.memory_bytes = least + more;

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Gigaray authors
 // Text: parameters.cfg of HCI scenes, Middlebury's par and calib files, Strecha's .camera files,
-// MVSNet's cam files.
+// MVSNet's cam files, positions.
 #include "fuzz.h"
 #include "hci_parameters.h"
+#include "positions_file.h"
 #include "stated_views.h"
 #include "stereo_calibration.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  const gigaray::fuzz::Input input(data, size, 5);
+  const gigaray::fuzz::Input input(data, size, 7);
   gigaray::fuzz::expect_result_or_one_line([&] {
     if (input.choice == 0) {
       const gigaray::HciParameters parameters(input.bytes, "fuzz");
@@ -24,6 +25,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     } else if (input.choice == 4) {
       const auto pair = gigaray::parse_stereo_calibration(input.bytes, "fuzz");
       GIGARAY_CHECK(pair.focal_px > 0 && pair.baseline > 0);
+    } else if (input.choice >= 5) {
+      const std::size_t count = input.choice == 5 ? 2 : 5;
+      const std::vector<std::filesystem::path> pictures{"a.png", "b.png", "c 1.png", "d.png", "e"};
+      const auto positions = gigaray::parse_positions(input.bytes, "fuzz",
+                                                      {pictures.begin(), pictures.begin() + count});
+      GIGARAY_CHECK(positions.size() == count);
     } else {
       const auto view = gigaray::parse_strecha_camera(input.bytes, "fuzz");
       GIGARAY_CHECK(view.lens.width > 0 && view.translation.allFinite());

@@ -15,6 +15,8 @@
 namespace gigaray {
 namespace {
 
+constexpr double kEnough = 1 << 30;  // bytes
+
 using testing_support::expect_error;
 
 using Picture = Image<std::uint16_t>;
@@ -142,7 +144,7 @@ TEST(TupleCoding, RestoresTheTuples) {
   for (const int band : {0, 1, 2})
     for (const int count : {0, 1, 3000}) {
       const TupleBand tuples = any_tuples(shape, band, count);
-      const TupleBand decoded = decode_tuples(shape, band, encode_tuples(shape, band, tuples));
+      const TupleBand decoded = decode_tuples(shape, band, encode_tuples(shape, band, tuples), kEnough);
       EXPECT_TRUE(decoded.tuples == tuples.tuples) << band << ", " << count;
       EXPECT_EQ(decoded.least_slope, tuples.least_slope);
       EXPECT_EQ(decoded.largest_slope, tuples.largest_slope);
@@ -156,7 +158,7 @@ TEST(TupleCoding, DamagedBytesAreRefusedOrStayInsideTheLightField) {
     std::string damaged = bytes;
     damaged[i] = char(damaged[i] ^ 0x10);
     try {
-      for (const SparseTuple& tuple : decode_tuples(shape, 1, damaged).tuples) {
+      for (const SparseTuple& tuple : decode_tuples(shape, 1, damaged, kEnough).tuples) {
         ASSERT_TRUE(tuple.u >= 0 && tuple.u < shape.width && tuple.v >= 20 && tuple.v < 40);
         ASSERT_TRUE(tuple.view >= 0 && tuple.view < 9);
       }
@@ -165,7 +167,7 @@ TEST(TupleCoding, DamagedBytesAreRefusedOrStayInsideTheLightField) {
     }
   }
   expect_error(ErrorCode::kBadInput, {"is damaged"},
-               [&] { decode_tuples(shape, 1, bytes.substr(0, bytes.size() - 3)); });
+               [&] { decode_tuples(shape, 1, bytes.substr(0, bytes.size() - 3), kEnough); });
 }
 
 TEST(Compressed, RestoresAnyBytesAndRefusesMoreThanItMay) {

@@ -10,7 +10,7 @@ namespace gigaray::testing_support {
 
 /// The least memory that a run can be given, within 64 KiB: it makes the run use files and many
 /// bands.
-inline double least_memory(const LightField& light_field, DepthOptions options) {
+inline double least_limit_by_trial(const LightField& light_field, DepthOptions options) {
   double too_little = 1 << 20, enough = 4e9;
   while (enough - too_little > 65536) {
     options.memory_bytes = (too_little + enough) / 2;

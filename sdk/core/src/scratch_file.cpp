@@ -3,11 +3,13 @@
 #include "gigaray/scratch_file.h"
 
 #include <fcntl.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
+#include <filesystem>
 #include <utility>
 
 #include "gigaray/error.h"
@@ -33,6 +35,15 @@ bool do_all(std::size_t bytes, Step step) {
 
 }  // namespace
 
+std::string temporary_folder(const std::string& advice) {
+  std::error_code error;
+  const auto folder = std::filesystem::temp_directory_path(error);
+  if (!error) return folder.string();
+  const char* stated = std::getenv("TMPDIR");
+  throw Error(ErrorCode::kIo, "TMPDIR: " + std::string(stated ? stated : "the system's /tmp") +
+                                  " is no folder for temporary files; set TMPDIR to one" + advice);
+}
+
 ScratchFile::ScratchFile(std::string folder) : folder_(std::move(folder)) {
   std::string name = folder_ + "/gigaray-XXXXXX";
   file_ = mkstemp(name.data());
@@ -53,7 +64,10 @@ ScratchFile::~ScratchFile() {
 }
 
 void ScratchFile::reserve(std::uint64_t bytes) {
-  errno = posix_fallocate(file_, 0, off_t(bytes));
+  // Beyond RLIMIT_FSIZE a signal would end the process.
+  rlimit limit{};
+  const bool is_limited = getrlimit(RLIMIT_FSIZE, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY;
+  errno = is_limited && bytes > limit.rlim_cur ? EFBIG : posix_fallocate(file_, 0, off_t(bytes));
   if (errno != 0) fail(folder_, "no room for " + std::to_string(bytes >> 20) + " MiB of");
 }
 

@@ -5,13 +5,12 @@
 #include <unistd.h>
 
 #include <atomic>
-#include <cstdint>
 #include <cstdlib>
 #include <fstream>
-#include <iterator>
 #include <string>
 
 #include "gigaray/device.h"
+#include "gigaray/scratch_file.h"
 #include "opencl/pocl_cache.h"
 
 namespace gigaray::opencl {
@@ -23,17 +22,22 @@ std::string environment(const char* name) {
   return value ? value : "";
 }
 
-/// A folder that lives as long as the process.
+/// A folder for PoCL that lives as long as the process.
 class TemporaryFolder {
  public:
+  /// Throws Error(kIo) when there is no room for it.
   TemporaryFolder() {
-    std::error_code error;
-    std::string path = (fs::temp_directory_path(error) / "gigaray-pocl-XXXXXX").string();
-    if (!error && mkdtemp(path.data())) path_ = path;
+    const std::string folder = temporary_folder();
+    if (const std::string why = why_no_room(folder, kPoclRoom); !why.empty())
+      throw Error(ErrorCode::kIo, why);
+    std::string path = folder + "/gigaray-pocl-XXXXXX";
+    if (!mkdtemp(path.data()))
+      throw Error(ErrorCode::kIo, folder + ": no folder can be made in it");
+    path_ = path;
   }
   ~TemporaryFolder() {
     std::error_code ignored;
-    if (!path_.empty()) fs::remove_all(path_, ignored);
+    fs::remove_all(path_, ignored);
   }
   TemporaryFolder(const TemporaryFolder&) = delete;
   TemporaryFolder& operator=(const TemporaryFolder&) = delete;
@@ -44,10 +48,28 @@ class TemporaryFolder {
   std::string path_;
 };
 
-bool is_writable(const fs::path& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  return access(folder.c_str(), W_OK | X_OK) == 0;
+/// The first folder that has room: what the user names for PoCL, the one in our cache, a temporary
+/// one. Throws Error(kIo) with all reasons when none has.
+void choose_pocl_folder() {
+  std::string reasons;
+  const auto has_room = [&](const fs::path& folder) {
+    const std::string why = why_no_room(folder, kPoclRoom);
+    if (!why.empty()) reasons += why + "; ";
+    return why.empty();
+  };
+  if (const std::string named = environment("POCL_CACHE_DIR"); !named.empty()) {
+    if (has_room(named)) return;
+  } else if (const auto folder = cache_folder(); folder && has_room(*folder / kPoclFolder)) {
+    static const PoclCache pocl(*folder / kPoclFolder);
+    setenv("POCL_CACHE_DIR", pocl.folder().c_str(), 1);
+    return;
+  }
+  try {
+    static const TemporaryFolder temporary;
+    setenv("POCL_CACHE_DIR", temporary.path().c_str(), 1);
+  } catch (const Error& error) {
+    throw Error(ErrorCode::kIo, reasons + error.what());
+  }
 }
 
 }  // namespace
@@ -88,24 +110,37 @@ bool write_file_atomically(const fs::path& path, std::string_view content) {
 std::optional<std::string> read_file(const fs::path& path) {
   std::ifstream file(path, std::ios::binary);
   if (!file) return std::nullopt;
-  std::string content((std::istreambuf_iterator<char>(file)), {});
+  std::string content;
+  constexpr std::size_t kPiece = 1 << 18;
+  for (std::size_t size = 0; file; size += std::size_t(file.gcount()), content.resize(size)) {
+    content.resize(size + kPiece);
+    file.read(content.data() + size, kPiece);
+  }
   if (file.bad()) return std::nullopt;
   return content;
 }
 
-void give_pocl_a_cache() {
-  [[maybe_unused]] static const bool once = [] {
-    if (!environment("POCL_CACHE_DIR").empty()) return true;
-    const auto folder = cache_folder();
-    if (folder && is_writable(*folder / kPoclFolder)) {
-      static const PoclCache pocl(*folder / kPoclFolder);
-      setenv("POCL_CACHE_DIR", pocl.folder().c_str(), 1);
-    } else {
-      static const TemporaryFolder temporary;
-      if (!temporary.path().empty()) setenv("POCL_CACHE_DIR", temporary.path().c_str(), 1);
+std::string why_no_room(const fs::path& folder, std::uint64_t bytes) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  try {
+    ScratchFile(folder.string()).reserve(bytes);
+  } catch (const Error& failure) {
+    return failure.what();
+  }
+  return "";
+}
+
+const std::string& give_pocl_a_cache() {
+  static const std::string failure = []() -> std::string {
+    try {
+      choose_pocl_folder();
+    } catch (const Error& error) {
+      return error.what();
     }
-    return true;
+    return "";
   }();
+  return failure;
 }
 
 }  // namespace gigaray::opencl
@@ -136,9 +171,14 @@ KernelCacheInfo kernel_cache_info() {
 
 void clear_kernel_cache() {
   const auto folder = opencl::cache_folder();
-  if (!folder) return;
-  for (const auto part : {opencl::kProgramFolder, opencl::kPoclFolder}) {
-    // The folders stay: a running PoCL expects its own to exist.
+  std::error_code ignored;
+  if (!folder || !fs::is_directory(*folder, ignored)) return;
+  // PoCL ends the process whose kernels vanish.
+  const opencl::PoclCacheAlone alone(*folder / opencl::kPoclFolder);
+  if (alone.is_in_use())
+    throw Error(ErrorCode::kIo, "kernel cache: " + folder->string() +
+                                    " is in use by another run; clear it when that has ended");
+  for (const auto part : {opencl::kReadyFolder, opencl::kProgramFolder, opencl::kPoclFolder}) {
     std::error_code error;
     for (fs::directory_iterator it(*folder / part, error), end; !error && it != end;
          it.increment(error)) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "opencl/cache_folder.h"
+#include "opencl/pocl_cache.h"
 #include "opencl/text.h"
 
 namespace gigaray::opencl {
@@ -16,6 +17,7 @@ namespace {
 
 /// Returned by the ICD loader when no platform is installed (cl_khr_icd).
 constexpr cl_int kPlatformNotFound = -1001;
+constexpr const char* kPocl = "Portable Computing Language";
 
 struct FoundDevice {
   cl_device_id id;
@@ -82,7 +84,7 @@ std::vector<FoundDevice> find_devices() {
   // PoCL shows no device to a second thread while the first one initialises it.
   static std::mutex mutex;
   const std::lock_guard lock(mutex);
-  give_pocl_a_cache();
+  const bool has_pocl = give_pocl_a_cache().empty();
   cl_uint num_platforms = 0;
   const cl_int error = clGetPlatformIDs(0, nullptr, &num_platforms);
   if (error == kPlatformNotFound || num_platforms == 0) return {};
@@ -92,6 +94,7 @@ std::vector<FoundDevice> find_devices() {
 
   std::vector<FoundDevice> found;
   for (const auto platform : platforms) {
+    if (!has_pocl && query_text(platform, CL_PLATFORM_NAME) == kPocl) continue;
     // A platform whose driver is broken must not hide the others.
     cl_uint num_devices = 0;
     if (clGetDeviceIDs(platform, CL_DEVICE_TYPE_ALL, 0, nullptr, &num_devices) != CL_SUCCESS)
@@ -130,6 +133,10 @@ std::vector<FoundDevice>::const_iterator match(const std::vector<FoundDevice>& f
 
 FoundDevice select(const std::string& given) {
   const auto found = find_devices();
+  if (const std::string& why = give_pocl_a_cache(); found.empty() && !why.empty())
+    throw Error(ErrorCode::kDevice, "no OpenCL device: PoCL has no folder to compile kernels in: " +
+                                        why + "; name one with " + std::to_string(kPoclRoom >> 20) +
+                                        " MiB of room by GIGARAY_CACHE_DIR or TMPDIR");
   if (found.empty())
     throw Error(ErrorCode::kDevice,
                 "no OpenCL device found: install pocl-opencl-icd or a GPU driver");

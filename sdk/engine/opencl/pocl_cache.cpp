@@ -6,22 +6,32 @@
 #include <sys/file.h>
 #include <unistd.h>
 
-#include <cstdint>
+#include <cerrno>
+#include <map>
 #include <set>
 #include <sstream>
 #include <string>
 #include <utility>
 
 #include "opencl/cache_folder.h"
+#include "opencl/content_hash.h"
+#include "opencl/ready_kernels.h"
 
 namespace gigaray::opencl {
 namespace fs = std::filesystem;
 namespace {
 
-fs::path record_file(const fs::path& folder) { return folder.string() + ".sizes"; }
+constexpr const char* kHead = "gigaray pocl 1";
+
+fs::path record_file(const fs::path& folder) { return folder.string() + ".record"; }
+
+int open_lock(const fs::path& folder) {
+  return open((folder.string() + ".lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
+}
 
 /// The folder of the program that a file belongs to: the first two names of its path, as PoCL
-/// splits its hashes.
+/// splits its hashes. Files elsewhere are what is left of one that was being made: they stand for
+/// themselves.
 fs::path program_of(const fs::path& relative) {
   auto name = relative.begin();
   fs::path program = *name++;
@@ -29,10 +39,26 @@ fs::path program_of(const fs::path& relative) {
   return program;
 }
 
+/// PoCL touches a file of each program at every use; what it loads are these.
+bool is_loaded(const fs::path& file) {
+  return file.extension() == ".so" || file.extension() == ".bc";
+}
+
+/// Calls visit(relative path) for every file in the folder. What another process removes meanwhile
+/// is left out.
+template <class Visit>
+void for_each_file(const fs::path& folder, Visit visit) {
+  std::error_code error;
+  for (fs::recursive_directory_iterator it(folder, error), end; !error && it != end;
+       it.increment(error)) {
+    std::error_code vanished;
+    if (!it->is_directory(vanished)) visit(it->path().lexically_relative(folder));
+  }
+}
+
 }  // namespace
 
-PoclCache::PoclCache(fs::path folder) : folder_(std::move(folder)) {
-  lock_ = open((folder_.string() + ".lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
+PoclCache::PoclCache(fs::path folder) : folder_(std::move(folder)), lock_(open_lock(folder_)) {
   if (lock_ < 0) return;
   if (is_alone()) remove_damaged_programs();
   flock(lock_, LOCK_SH);
@@ -47,16 +73,26 @@ PoclCache::~PoclCache() {
 bool PoclCache::is_alone() const { return flock(lock_, LOCK_EX | LOCK_NB) == 0; }
 
 void PoclCache::remove_damaged_programs() const {
-  const auto record = read_file(record_file(folder_));
-  if (!record) return;
-  std::istringstream lines(*record);
+  std::map<std::string, std::string> recorded;  // file -> hash
+  std::istringstream lines(read_file(record_file(folder_)).value_or(""));
+  if (std::string head; std::getline(lines, head) && head == kHead)
+    for (std::string hash, name; lines >> hash && std::getline(lines >> std::ws, name);)
+      recorded.emplace(name, hash);
+
   std::set<fs::path> damaged;
-  std::uintmax_t size = 0;
-  for (std::string name; lines >> size && std::getline(lines >> std::ws, name);) {
-    std::error_code error;
-    const auto now = fs::file_size(folder_ / name, error);
-    if (error || now != size) damaged.insert(program_of(name));
-  }
+  for_each_file(folder_, [&](const fs::path& file) {
+    const fs::path program = program_of(file);
+    if (program == file) damaged.insert(file);
+    if (!is_loaded(file) || damaged.contains(program)) return;
+    const auto known = recorded.find(file.string());
+    const auto content = read_file(folder_ / file);
+    if (known == recorded.end() || !content || to_hex(content_hash(*content)) != known->second)
+      damaged.insert(program);
+    else
+      recorded.erase(known);
+  });
+  for (const auto& [missing, hash] : recorded) damaged.insert(program_of(missing));
+  if (!damaged.empty()) forget_ready_kernels(folder_.parent_path());
   for (const fs::path& program : damaged) {
     std::error_code ignored;
     fs::remove_all(folder_ / program, ignored);
@@ -64,20 +100,23 @@ void PoclCache::remove_damaged_programs() const {
 }
 
 void PoclCache::record_programs() const {
-  std::ostringstream lines;
-  std::error_code error;
-  // A user of the cache may remove files meanwhile: what vanishes is not recorded.
-  for (fs::recursive_directory_iterator it(folder_, error), end; !error && it != end;
-       it.increment(error)) {
-    std::error_code vanished;
-    if (!it->is_regular_file(vanished)) continue;
-    const fs::path relative = it->path().lexically_relative(folder_);
-    // PoCL touches a file at each use and makes temporary ones.
-    if (relative.extension() != ".so" && relative.extension() != ".bc") continue;
-    if (const auto size = it->file_size(vanished); !vanished)
-      lines << size << ' ' << relative.string() << '\n';
-  }
-  write_file_atomically(record_file(folder_), lines.str());
+  // What was written to a full disk need not be whole.
+  if (!why_no_room(folder_, kPoclRoom / 8).empty()) return;
+  std::string text = std::string(kHead) + "\n";
+  for_each_file(folder_, [&](const fs::path& file) {
+    if (!is_loaded(file)) return;
+    if (const auto content = read_file(folder_ / file))
+      text += to_hex(content_hash(*content)) + " " + file.string() + "\n";
+  });
+  write_file_atomically(record_file(folder_), text);
+}
+
+PoclCacheAlone::PoclCacheAlone(const fs::path& folder) : lock_(open_lock(folder)) {
+  is_in_use_ = lock_ >= 0 && flock(lock_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+}
+
+PoclCacheAlone::~PoclCacheAlone() {
+  if (lock_ >= 0) close(lock_);
 }
 
 }  // namespace gigaray::opencl

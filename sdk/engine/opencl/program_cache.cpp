@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "opencl/cache_folder.h"
+#include "opencl/content_hash.h"
 #include "opencl/text.h"
 
 namespace gigaray::opencl {
@@ -17,60 +18,23 @@ namespace {
 /// A cached program on disk: this header, then the device's binary. Files of a machine are read on
 /// that machine only, so the numbers are in its byte order.
 struct FileHeader {
-  std::array<char, 8> magic = {'G', 'I', 'G', 'A', 'K', 'R', 'N', '1'};  ///< '1' is the version.
+  std::array<char, 8> magic = {'G', 'I', 'G', 'A', 'K', 'R', 'N', '2'};  ///< '2' is the version.
   std::array<std::uint64_t, 2> key{};
   std::array<std::uint64_t, 2> payload_hash{};
   std::uint64_t payload_bytes = 0;
 };
 static_assert(sizeof(FileHeader) == 48);
 
-using Hash = std::array<std::uint64_t, 2>;
-
-/// 128-bit FNV-1a (Fowler, Noll, Vo; the constants are those of the algorithm's definition). Guards
-/// against accidents, not against an attacker who can write to the user's cache.
-class Hasher {
- public:
-  void add(std::string_view text) {
-    for (const char c : text) {
-      state_ ^= static_cast<unsigned char>(c);
-      state_ *= kPrime;
-    }
-  }
-  /// A field of a key: its length keeps ("ab", "c") and ("a", "bc") apart.
-  void add_field(std::string_view text) {
-    add(std::to_string(text.size()) + ":");
-    add(text);
-  }
-  Hash value() const { return {std::uint64_t(state_ >> 64), std::uint64_t(state_)}; }
-
- private:
-  using Wide = unsigned __int128;
-  static constexpr Wide kPrime = (Wide(1) << 88) | 0x13b;
-  Wide state_ = (Wide(0x6c62272e07bb0142) << 64) | 0x62b821756295c58d;
-};
-
-std::string to_hex(const Hash& hash) {
-  constexpr char kDigits[] = "0123456789abcdef";
-  std::string text;
-  for (const auto word : hash)
-    for (int shift = 60; shift >= 0; shift -= 4) text += kDigits[(word >> shift) & 15];
-  return text;
-}
-
-Hash hash_of(std::string_view payload) {
-  Hasher hasher;
-  hasher.add(payload);
-  return hasher.value();
-}
+using Hash = ContentHash::Value;
 
 Hash program_key(const DeviceInfo& info, std::string_view source, std::string_view options) {
-  Hasher hasher;
+  ContentHash hash;
   for (const std::string_view field :
        {source, options, std::string_view(info.platform), std::string_view(info.platform_version),
         std::string_view(info.vendor), std::string_view(info.name),
         std::string_view(info.driver_version)})
-    hasher.add_field(field);
-  return hasher.value();
+    hash.add(field);
+  return hash.value();
 }
 
 std::string join(std::span<const SourcePart> parts) {
@@ -90,7 +54,7 @@ std::optional<std::string> load_binary(const std::filesystem::path& path, const 
   std::memcpy(&header, content->data(), sizeof header);
   if (header.magic != FileHeader{}.magic || header.key != key) return std::nullopt;
   content->erase(0, sizeof header);
-  if (header.payload_bytes != content->size() || header.payload_hash != hash_of(*content))
+  if (header.payload_bytes != content->size() || header.payload_hash != content_hash(*content))
     return std::nullopt;
   return content;
 }
@@ -99,7 +63,7 @@ std::optional<std::string> load_binary(const std::filesystem::path& path, const 
 void save_binary(const std::filesystem::path& path, const Hash& key, const std::string& binary) {
   FileHeader header;
   header.key = key;
-  header.payload_hash = hash_of(binary);
+  header.payload_hash = content_hash(binary);
   header.payload_bytes = binary.size();
   std::string content(sizeof header, '\0');
   std::memcpy(content.data(), &header, sizeof header);

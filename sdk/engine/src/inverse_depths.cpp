@@ -28,7 +28,7 @@ std::string range_text(const InverseDepthRange& range) {
 }  // namespace
 
 void set_inverse_depths(LightField& light_field, const DepthOptions& options,
-                        const RunControl& control, bool read_pixels) {
+                        const RunControl& control) {
   std::vector<Camera>& cameras = light_field.cameras;
   std::string origin = "as the input states it";
   if (options.disparity) {
@@ -41,7 +41,7 @@ void set_inverse_depths(LightField& light_field, const DepthOptions& options,
   }
   const auto lacks = [](const Camera& camera) { return !camera.inverse_depth.has_value(); };
   if (std::any_of(cameras.begin(), cameras.end(), lacks)) {
-    estimate_inverse_depths(light_field, control, read_pixels);
+    estimate_inverse_depths(light_field, control, true);
     origin = "estimated from the pictures where the input does not state it";
   }
   const std::string unit = light_field.rig.unit.empty() ? "" : " " + light_field.rig.unit;

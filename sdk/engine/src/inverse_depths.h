@@ -9,11 +9,10 @@
 namespace gigaray {
 
 /// Gives every camera of an unstructured light field its range of inverse depths: that of the
-/// options, else its own, else one estimated from the pictures (from the cameras alone when no
-/// pixel may be read). Says what it found. Throws Error(kBadInput) when nothing can be estimated,
+/// options, else its own, else one estimated from the pictures. Says what it found. Throws Error(kBadInput) when nothing can be estimated,
 /// Error(kInvalidArgument) for a range with negative inverse depths.
 void set_inverse_depths(LightField& light_field, const DepthOptions& options,
-                        const RunControl& control, bool read_pixels);
+                        const RunControl& control);
 
 /// Says which views are compared with no other one and will have no depth. Throws Error(kBadInput)
 /// when that holds for all that are wanted.

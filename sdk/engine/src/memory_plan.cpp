@@ -4,19 +4,21 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <thread>
 
 #include "gigaray/memory_limit.h"
 #include "gigaray/samplers/any_sampler.h"
+#include "gigaray/scratch_file.h"
 #include "search_bounds.h"
 
 namespace gigaray {
 namespace {
 
 constexpr double kMiB = 1 << 20;
-/// The program itself, OpenCL and its compiler, decoding buffers of small pictures.
-constexpr double kProcessBytes = 220 * kMiB;
+/// The program itself, OpenCL without compiling, decoding buffers of small pictures.
+constexpr double kProcessBytes = 175 * kMiB;
+/// Tuples are kept in memory with the stores: so many per pixel of a picture, as a rule.
+constexpr double kTuplesPerPixel = 2;
 /// Most bytes of one device buffer that every OpenCL driver we know grants.
 constexpr double kLargestBuffer = 1800 * kMiB;
 constexpr int kSmallestLevel = 10;  // px
@@ -116,7 +118,8 @@ class Planner {
                              (40 + (support.slanted ? 24 : 0) + (options_.score.ray_mean ? 24 : 0));
     const double threads = std::min(4u, std::max(1u, std::thread::hardware_concurrency()));
     const double decoding = threads * 12.0 * light_field_.width * light_field_.height;
-    return kProcessBytes + copies * volume + std::max(view_maps, decoding);
+    return kProcessBytes + kCompilerBytes + options_.memory_beside + copies * volume +
+           std::max(view_maps, decoding);
   }
 
   std::optional<MemoryPlan> plan(double limit, double volume, bool in_files) const {
@@ -146,10 +149,6 @@ class Planner {
     result.forecast.disk_bytes = in_files ? store_bytes() : 0;
     const int first = result.levels.front().band_rows;
     result.forecast.bands = (light_field_.height + first - 1) / first;
-    if (in_files)
-      result.work_folder = options_.work_folder.empty()
-                               ? std::filesystem::temp_directory_path().string()
-                               : options_.work_folder;
     return result;
   }
 
@@ -177,7 +176,7 @@ class Planner {
     double stores = 0;
     for (const LevelShape& shape : shapes_)
       stores += cost_of(shape, light_field_, options_, active_, band_views_, false).stores;
-    return stores;
+    return stores + kTuplesPerPixel * sizeof(RayTuple) * light_field_.width * light_field_.height;
   }
   /// What the windows reach, a row for gradients, two for interpolation taps.
   int halo(const LevelShape& shape) const {
@@ -230,6 +229,11 @@ std::vector<LevelShape> level_shapes(int width, int height, bool fine_to_coarse)
   return shapes;
 }
 
+double least_memory_limit(const LightField& light_field, const DepthOptions& options,
+                          const HypothesisRange& hypotheses) {
+  return Planner(light_field, options, hypotheses).least_limit();
+}
+
 MemoryPlan plan_memory(const LightField& light_field, const DepthOptions& options,
                        const HypothesisRange& hypotheses) {
   const double limit = options.memory_bytes > 0 ? options.memory_bytes : default_memory_limit();
@@ -253,6 +257,10 @@ MemoryPlan plan_memory(const LightField& light_field, const DepthOptions& option
                     std::to_string(int(std::ceil(planner.least_limit() / kMiB))) + " MiB");
   const bool keep = in_memory && (in_memory->forecast.bands <= 4 || !in_files);
   MemoryPlan chosen = keep ? *in_memory : *in_files;
+  if (!keep)
+    chosen.work_folder = options.work_folder.empty()
+                             ? temporary_folder(" or name another folder by --work")
+                             : options.work_folder;
   chosen.forecast.memory_all_bytes = planner.everything(usual);
   return chosen;
 }

@@ -9,6 +9,10 @@
 
 namespace gigaray {
 
+/// What compiling kernels takes. Every plan leaves room for it, so that a run needs as much whether
+/// its kernels are cached or not; of the forecast it is a part only where they are not.
+inline constexpr double kCompilerBytes = 175 * double(1 << 20);
+
 /// Sizes of one level and how it is walked.
 struct LevelPlan {
   LevelShape shape;
@@ -28,6 +32,10 @@ struct MemoryPlan {
 /// does not fit.
 MemoryPlan plan_memory(const LightField& light_field, const DepthOptions& options,
                        const HypothesisRange& hypotheses);
+
+/// Least DepthOptions::memory_bytes that there is a plan for.
+double least_memory_limit(const LightField& light_field, const DepthOptions& options,
+                          const HypothesisRange& hypotheses);
 
 /// Sizes of all levels: halved, odd sizes rounded up, until a dimension would fall below 10 px.
 std::vector<LevelShape> level_shapes(int width, int height, bool fine_to_coarse);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 #include <sstream>
 
@@ -11,6 +12,7 @@
 #include "gigaray/scene_estimates.h"
 #include "gigaray/smoothing.h"
 #include "inverse_depths.h"
+#include "opencl/ready_kernels.h"
 #include "reconstruction_impl.h"
 #include "stage_timer.h"
 
@@ -68,26 +70,22 @@ void adapt_to_noise(Prepared& run, const RunControl& control) {
 }
 
 /// Range and hypotheses of parallel views.
-void prepare_range(Prepared& run, const RunControl& control, bool read_pixels) {
+void prepare_range(Prepared& run, const RunControl& control) {
   if (!run.options.disparity) run.options.disparity = run.light_field.declared_range;
   if (!run.options.disparity) {
-    // A guess of usual size stands in where no pixel may be read: it moves the forecast a little.
-    run.options.disparity = read_pixels ? estimate_disparity_range(run.light_field, control).range
-                                        : DisparityRange{-2, 2};
-    if (read_pixels) {
-      std::ostringstream text;
-      text << "disparity range " << run.options.disparity->min << " … "
-           << run.options.disparity->max << " px per view step, estimated from the pictures";
-      control.message(text.str());
-    }
+    run.options.disparity = estimate_disparity_range(run.light_field, control).range;
+    std::ostringstream text;
+    text << "disparity range " << run.options.disparity->min << " … " << run.options.disparity->max
+         << " px per view step, estimated from the pictures";
+    control.message(text.str());
   }
   run.hypotheses = sample_range(run.options, run.light_field);
 }
 
 /// The same of unstructured views: each searches its own range of inverse depths.
-void prepare_unstructured(Prepared& run, const RunControl& control, bool read_pixels) {
+void prepare_unstructured(Prepared& run, const RunControl& control) {
   run.light_field.most_partners = run.options.most_partners;
-  set_inverse_depths(run.light_field, run.options, control, read_pixels);
+  set_inverse_depths(run.light_field, run.options, control);
   const InverseDepthRange all = all_inverse_depths(run.light_field.cameras);
   run.options.disparity = DisparityRange{all.min, all.max};
   check_partners(
@@ -103,9 +101,10 @@ void prepare_unstructured(Prepared& run, const RunControl& control, bool read_pi
   run.hypotheses = {0, 1, count};
 }
 
-/// Checks the input and fills in what the options leave to the data.
+/// Checks the input and fills in what decides the memory. Reads pictures where the range has to be
+/// estimated.
 Prepared prepare(const LightField& light_field, const DepthOptions& wanted,
-                 const RunControl& control, bool read_pixels) {
+                 const RunControl& control) {
   check(light_field);
   wanted.check();
   Prepared run{light_field, wanted, {}};
@@ -115,17 +114,46 @@ Prepared prepare(const LightField& light_field, const DepthOptions& wanted,
                                                    ": there are views 0 … " +
                                                    std::to_string(light_field.num_views() - 1));
   if (light_field.kind == LightFieldKind::kUnstructured) {
-    prepare_unstructured(run, control, read_pixels);
+    prepare_unstructured(run, control);
   } else {
-    prepare_range(run, control, read_pixels);
+    prepare_range(run, control);
   }
   run.options.hypotheses = run.hypotheses.count;
-  if (!read_pixels) return run;
+  return run;
+}
+
+/// Fills in what the pictures decide. The plan of the memory comes before: it holds for all
+/// pictures, so that the forecast, which looks at none, and the run say the same.
+void adapt_to_pictures(Prepared& run, const RunControl& control) {
   if (run.options.score.from_noise)
     adapt_to_noise(run, control);
   else if (run.options.score.smoothing > 0)
     run.light_field = smoothed(run.light_field, run.options.score.smoothing);
-  return run;
+}
+
+/// What the kernels of a run depend on, without asking a device.
+std::string kernel_job(const Prepared& run, const BackendChoice& choice) {
+  const DepthOptions& o = run.options;
+  const char* usual = std::getenv("GIGARAY_DEVICE");
+  std::ostringstream text;
+  text << choice.device << '|' << (usual ? usual : "") << '|' << to_string(run.light_field.kind)
+       << ' ' << run.light_field.pixels->bit_depth() << ' ' << run.light_field.pixels->has_mask()
+       << ' ' << o.edge.threshold << ' ' << o.edge.squared << ' ' << o.score.linear_rgb << ' '
+       << o.score.cubic << ' ' << o.score.gradient << ' ' << o.score.ray_mean << ' '
+       << o.support.radius << ' ' << o.support.slanted << ' ' << o.support.half_planes << ' '
+       << o.support.scanline << ' ' << o.winner.refine << ' ' << o.winner.median_radius << ' '
+       << o.propagation.fine_to_coarse;
+  return text.str();
+}
+
+/// The plan, with the compiler in the forecast where there is something to compile.
+MemoryPlan plan_run(const Prepared& run, const BackendChoice& choice) {
+  MemoryPlan plan = plan_memory(run.light_field, run.options, run.hypotheses);
+  if (choice.backend == "reference" || opencl::kernels_are_ready(kernel_job(run, choice))) {
+    plan.forecast.memory_bytes -= kCompilerBytes;
+    plan.forecast.memory_all_bytes -= kCompilerBytes;
+  }
+  return plan;
 }
 
 std::unique_ptr<Backend> make_backend(const Prepared& run, const BackendChoice& choice) {
@@ -245,20 +273,24 @@ Reconstruction reconstruct(const LightField& light_field, const DepthOptions& op
                            const BackendChoice& backend, const RunControl& control) {
   auto impl = std::make_unique<Reconstruction::Impl>();
   LightField seen;
+  std::string job;
   {
     const StageTimer timer(impl->seconds, "prepare");
-    const Prepared run = prepare(light_field, options, control, true);
+    Prepared run = prepare(light_field, options, control);
+    impl->plan = plan_run(run, backend);
+    job = kernel_job(run, backend);
+    adapt_to_pictures(run, control);
     seen = run.light_field;
     impl->options = run.options;
     impl->hypotheses = run.hypotheses;
     impl->cameras = seen.cameras;
     impl->sampler = make_sampler(seen);
-    impl->plan = plan_memory(seen, run.options, run.hypotheses);
     impl->backend = make_backend(run, backend);
   }
   impl->device = impl->backend->name() + ": " + impl->backend->description();
   Pipeline pipeline(seen, impl->options, impl->hypotheses, impl->plan, *impl->backend, control);
   pipeline.run();
+  if (backend.backend == "opencl") opencl::note_ready_kernels(job);
   impl->levels = std::move(pipeline.levels());
   impl->mask = std::move(pipeline.mask());
   impl->active = pipeline.active_views();
@@ -269,9 +301,14 @@ Reconstruction reconstruct(const LightField& light_field, const DepthOptions& op
   return Reconstruction(std::move(impl));
 }
 
-Forecast forecast(const LightField& light_field, const DepthOptions& options) {
-  const Prepared run = prepare(light_field, options, RunControl{}, false);
-  return plan_memory(run.light_field, run.options, run.hypotheses).forecast;
+Forecast forecast(const LightField& light_field, const DepthOptions& options,
+                  const BackendChoice& backend) {
+  return plan_run(prepare(light_field, options, RunControl{}), backend).forecast;
+}
+
+double least_memory_bytes(const LightField& light_field, const DepthOptions& options) {
+  const Prepared run = prepare(light_field, options, RunControl{});
+  return least_memory_limit(run.light_field, run.options, run.hypotheses);
 }
 
 ScoreCurve probe(const LightField& light_field, const DepthOptions& options,
@@ -284,7 +321,8 @@ ScoreCurve probe(const LightField& light_field, const DepthOptions& options,
                                                  std::to_string(v) + " is outside the picture of " +
                                                  std::to_string(width) + "x" +
                                                  std::to_string(height));
-  const Prepared run = prepare(light_field, options, control, true);
+  Prepared run = prepare(light_field, options, control);
+  adapt_to_pictures(run, control);
   const auto backend = make_backend(run, choice);
   const AnySampler sampler = make_sampler(run.light_field);
   const std::vector<int> partners =

@@ -3,15 +3,21 @@
 #include "tuple_store.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace gigaray {
 
 void TupleStore::append(const RayTuple& tuple) {
+  recent_.reserve(kBlock);
   recent_.push_back(tuple);
-  if (folder_.empty() || recent_.size() < kRecent) return;
-  if (!file_.is_open()) file_ = ScratchFile(folder_);
-  file_.write(spilled_ * sizeof(RayTuple), recent_.size() * sizeof(RayTuple), recent_.data());
-  spilled_ += recent_.size();
+  if (recent_.size() < kBlock) return;
+  if (folder_.empty()) {
+    full_.push_back(std::move(recent_));
+  } else {
+    if (!file_.is_open()) file_ = ScratchFile(folder_);
+    file_.write(spilled_ * sizeof(RayTuple), recent_.size() * sizeof(RayTuple), recent_.data());
+    spilled_ += recent_.size();
+  }
   recent_.clear();
 }
 
@@ -22,6 +28,8 @@ void TupleStore::for_each(const std::function<void(const RayTuple&)>& visit) con
     file_.read(done * sizeof(RayTuple), block.size() * sizeof(RayTuple), block.data());
     for (const RayTuple& tuple : block) visit(tuple);
   }
+  for (const std::vector<RayTuple>& block : full_)
+    for (const RayTuple& tuple : block) visit(tuple);
   for (const RayTuple& tuple : recent_) visit(tuple);
 }
 

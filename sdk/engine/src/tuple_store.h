@@ -19,15 +19,17 @@ class TupleStore {
   explicit TupleStore(std::string folder) : folder_(std::move(folder)) {}
 
   void append(const RayTuple& tuple);
-  std::size_t size() const { return spilled_ + recent_.size(); }
+  std::size_t size() const { return spilled_ + kBlock * full_.size() + recent_.size(); }
   void for_each(const std::function<void(const RayTuple&)>& visit) const;
 
  private:
-  static constexpr std::size_t kRecent = 1 << 20;  ///< Tuples in memory before they are spilled.
+  /// Tuples that are spilled together, or kept in one piece: no vector is ever copied to grow.
+  static constexpr std::size_t kBlock = 1 << 16;
 
   std::string folder_;
   std::size_t spilled_ = 0;
   ScratchFile file_;
+  std::vector<std::vector<RayTuple>> full_;  ///< without a folder
   std::vector<RayTuple> recent_;
 };
 

@@ -80,6 +80,9 @@ std::string ByteReader::block(std::size_t most) {
   const std::size_t size = number(most);
   if (size == 0) return {};
   const std::size_t packed = number(bytes_.size());
+  if (packed > bytes_.size()) damaged("a part ends too early");
+  if (ZSTD_getFrameContentSize(bytes_.data(), packed) != size)
+    damaged("a part states another size than it has");
   std::string bytes(size, '\0');
   const std::size_t got = ZSTD_decompress(bytes.data(), size, bytes_.data(), packed);
   if (ZSTD_isError(got) || got != size) damaged("a part can't be decompressed");

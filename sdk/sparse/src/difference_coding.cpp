@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Gigaray authors
 //
-// The difference ΔE of a block of rows: predicted, the misses quantised and coded by models that are
-// chosen by how well the neighbourhood was predicted.
+// The difference ΔE of a block of rows: predicted, the misses quantised and coded by models that
+// are chosen by how well the neighbourhood was predicted.
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <algorithm>
@@ -103,8 +103,16 @@ std::string encode_difference(const Image<std::uint16_t>& picture,
   return out.take() + coder.finish();
 }
 
+bool may_hold_difference(std::uint64_t bytes, double pixels) {
+  // A decision has a probability of 1 − 2^-10 at most (BitModel), which is 0.0014 bits.
+  constexpr double kDecisionsPerByte = 6000;
+  return kChannels * pixels <= kDecisionsPerByte * (double(bytes) + 1);
+}
+
 Image<std::uint16_t> decode_difference(std::string_view bytes, const Image<std::uint16_t>& drawn,
                                        int bit_depth) {
+  if (!may_hold_difference(bytes.size(), double(drawn.width()) * drawn.height()))
+    damaged("its differences end too early");
   const int width = drawn.width(), height = drawn.height();
   const std::int32_t most = (1 << bit_depth) - 1;
   Image<std::uint16_t> picture(width, height, kChannels);

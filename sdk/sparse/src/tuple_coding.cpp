@@ -39,17 +39,26 @@ std::string encode_tuples(const SparseShape& shape, int band, const TupleBand& t
   return out.take();
 }
 
-TupleBand decode_tuples(const SparseShape& shape, int band, std::string_view bytes) {
+TupleBand decode_tuples(const SparseShape& shape, int band, std::string_view bytes,
+                        double memory_bytes) {
   const RowRange rows = shape.band(band);
   ByteReader in(bytes);
   const std::size_t most = std::size_t(rows.size()) * shape.width * shape.positions.size();
   const std::size_t count = in.number(most);
+  double left = memory_bytes - double(count) * sizeof(SparseTuple);
+  if (!(left >= 0)) damaged("it has more tuples than the limit of memory has room for");
   std::vector<std::string> blocks;
-  for (int i = 0; i < kColumns; ++i) blocks.push_back(in.block(10 * count));
+  for (int i = 0; i < kColumns; ++i) {
+    const auto room = std::size_t(std::min(left, 10.0 * double(count)));
+    blocks.push_back(in.block(room));
+    left -= double(blocks.back().size());
+    if (blocks.back().size() < count) damaged("it has fewer numbers than tuples");
+  }
   if (!in.at_end()) damaged("more follows than it should have");
   std::vector<ByteReader> columns(blocks.begin(), blocks.end());
 
   TupleBand tuples;
+  tuples.tuples.reserve(count);
   SparseTuple last;
   last.v = rows.begin;
   const std::int64_t most_colour = (std::int64_t(1) << shape.bit_depth) - 1;

@@ -12,7 +12,8 @@
 namespace gigaray {
 
 /// Another program with what it prints, stdout and stderr together. It runs in a process group of
-/// its own, which is killed when this object goes.
+/// its own, which is killed when this object goes, and also when this process ends in any other
+/// way.
 class ChildProcess {
  public:
   /// Starts arguments[0], looked for on PATH, without a shell. settings: NAME=VALUE, added to the
@@ -36,6 +37,7 @@ class ChildProcess {
 
   pid_t pid_ = -1;
   int output_ = -1;
+  int alive_ = -1;  ///< open as long as this process lives
 };
 
 /// Is there no such program on PATH?

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <optional>
 
 #include "gigaray/adapters/atomic_output.h"
@@ -13,14 +12,14 @@ namespace gigaray {
 
 /// Writes a point cloud piece by piece as binary PLY, little endian: x y z nx ny nz confidence
 /// support (float), red green blue (uchar). An origin other than 0, the same for all pieces, is
-/// stated as "comment origin X Y Z". The file appears with commit(). Throws Error(kIo).
+/// stated as "comment origin X Y Z". The file appears with commit(). Throws as AtomicFile does.
 class CloudFile {
  public:
-  explicit CloudFile(const std::filesystem::path& path);
+  explicit CloudFile(AtomicFile file);
 
   /// Points whose position or normal is not finite are left out.
   void add(const PointCloud& cloud);
-  void commit();
+  void commit(const RunControl& control = RunControl());
 
   std::uint64_t points() const { return points_; }
 

@@ -23,6 +23,9 @@ struct ColmapRunOptions {
 };
 
 /// What COLMAP found.
+/// Name of the log in the work folder of run_colmap().
+inline constexpr const char* kColmapLog = "colmap.log";
+
 struct ColmapRun {
   std::filesystem::path model;    ///< folder of the largest model; pictures are named as below
   int num_pictures = 0;           ///< in the folder of photographs

@@ -32,19 +32,20 @@ enum class MapFormat {
 /// of the centre view also at top level, gigaray.json. Appears only when complete.
 class DepthFolder {
  public:
-  /// Make it before the work: throws like AtomicFolder when the place can't be used, and
-  /// Error(kInvalidArgument) for a format that doesn't go with the light field.
-  DepthFolder(const std::filesystem::path& target, std::set<MapFormat> formats,
-              LightField light_field);
+  /// Make it before the work: throws like AtomicFolder when the place can't be used.
+  DepthFolder(const std::filesystem::path& target, std::set<MapFormat> formats, OutputRules rules);
   ~DepthFolder();
+
+  /// Before the first view. Throws Error(kInvalidArgument) for a format that doesn't go with it.
+  void describe(LightField light_field);
 
   /// disparity, confidence: (v, u) of the view, NaN where there is no estimate. Cut to the size of
   /// the view's own picture. pictured: range of the colours of depth.png and of 16-bit PNGs.
   void write_view(int view_idx, FloatMap disparity, FloatMap confidence, DisparityRange pictured,
                   bool is_centre);
 
-  /// Adds gigaray.json and puts the folder in its place.
-  void commit(const std::string& json);
+  /// Adds gigaray.json and puts the folder in its place, as AtomicFolder does.
+  void commit(const std::string& json, const RunControl& control = RunControl());
 
  private:
   void write_maps(const std::filesystem::path& folder, const FloatMap& disparity,

@@ -21,8 +21,8 @@ bool is_plain_folder(const std::filesystem::path& input, const OpenOptions& opti
 /// Why the pictures of a plain folder can't be views along a line, and are photographs from
 /// anywhere: names without numbers, several series, upright ones and ones on their side. Empty:
 /// they may be, or they should be and are damaged (one has another size). Throws Error(kBadInput)
-/// naming an unreadable picture.
-std::string why_no_series(const std::filesystem::path& folder);
+/// naming an unreadable picture, or one that takes more than memory_bytes (OpenOptions).
+std::string why_no_series(const std::filesystem::path& folder, double memory_bytes = 0);
 
 /// Is a series of pictures what a 3D light field is, that is, do things move along the rows (or the
 /// columns) of the pictures alone from one view to the next? The median displacement across that

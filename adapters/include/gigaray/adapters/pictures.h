@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <string>
 
 #include "gigaray/image.h"
 
@@ -14,9 +15,14 @@ namespace gigaray {
 void write_png(const std::filesystem::path& path, const Image<std::uint16_t>& picture,
                int bit_depth);
 
+/// The same as bytes of a file.
+std::string png_bytes(const Image<std::uint16_t>& picture, int bit_depth);
+
 /// Reads any picture that a light field may be made of: RGB (v, u, c); grey is repeated, alpha is
 /// dropped, the orientation of the camera is applied. bit_depth, if given, becomes 8 or 16.
-/// Throws Error(kBadInput) naming the file when it is damaged, cut short or no picture.
-Image<std::uint16_t> read_picture(const std::filesystem::path& path, int* bit_depth = nullptr);
+/// Throws Error(kBadInput) naming the file when it is damaged, cut short, no picture or takes more
+/// than memory_bytes (0: default_memory_limit()) to decode.
+Image<std::uint16_t> read_picture(const std::filesystem::path& path, int* bit_depth = nullptr,
+                                  double memory_bytes = 0);
 
 }  // namespace gigaray

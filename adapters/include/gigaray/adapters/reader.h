@@ -41,11 +41,15 @@ struct OpenOptions {
   /// Folder of masks of pictures with known cameras, black where nothing is to be looked at:
   /// NAME.png for the picture NAME, or the name with .png as its extension. Empty: none.
   std::filesystem::path masks = {};
+  /// Most memory that opening the input and decoding one of its pictures may take, bytes. 0:
+  /// default_memory_limit().
+  double memory_bytes = 0;
 };
 
 /// Recognises what `input` is (registry.h) and opens it. Reads the headers of the pictures, not
 /// their pixels. Throws Error(kBadInput) when nothing fits, saying what is missing; when the format
 /// is known but the data are damaged or contradictory.
+/// Before anything is decoded, what it states is held against options.memory_bytes.
 /// Throws Error(kInvalidArgument) when an option does not go with the format.
 LightField open_light_field(const std::filesystem::path& input, const OpenOptions& options = {});
 

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "gigaray/adapters/atomic_output.h"
 #include "gigaray/light_field.h"
 #include "gigaray/run_control.h"
 #include "gigaray/sparse_light_field.h"
@@ -36,16 +37,25 @@ struct SparseFileReport {
 /// Writes a light field as tuples Γ and differences ΔE, whole or not at all (docs/formats.md).
 /// disparity: of every view. Throws Error(kInvalidArgument) for options and for unstructured views,
 /// Error(kIo) when the place can't be written, what the pictures throw, kCancelled.
-SparseFileReport write_sparse_file(const std::filesystem::path& path, const LightField& light_field,
+SparseFileReport write_sparse_file(AtomicFile file, const LightField& light_field,
                                    const DisparityOfView& disparity,
                                    const SparseFileOptions& options, const RunControl& control);
+/// The same; an older file is replaced, whoever wrote it.
+inline SparseFileReport write_sparse_file(const std::filesystem::path& path,
+                                          const LightField& light_field,
+                                          const DisparityOfView& disparity,
+                                          const SparseFileOptions& options,
+                                          const RunControl& control) {
+  return write_sparse_file(AtomicFile(path), light_field, disparity, options, control);
+}
 
 /// A .grl file. Opening reads the directory alone; what is asked for is read when it is, the tuples
 /// of a band once. Cheap to copy; thread-safe. Everything throws Error(kBadInput) naming the file
 /// when it is damaged.
 class SparseFile {
  public:
-  explicit SparseFile(const std::filesystem::path& path);
+  /// memory_bytes: most that decoding may take; 0: default_memory_limit().
+  explicit SparseFile(const std::filesystem::path& path, double memory_bytes = 0);
 
   /// Its pixels come from the file. Exactly those that were encoded when max_error() is 0.
   LightField light_field() const;

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "gigaray/error.h"
@@ -23,6 +24,11 @@ class Image {
         channels_(channels),
         data_(std::size_t(width) * height * channels, value) {
     GIGARAY_CHECK(width >= 0 && height >= 0 && channels >= 1);
+  }
+  /// Takes pixels in their order.
+  Image(int width, int height, int channels, std::vector<T> pixels)
+      : width_(width), height_(height), channels_(channels), data_(std::move(pixels)) {
+    GIGARAY_CHECK(data_.size() == std::size_t(width) * height * channels);
   }
 
   int width() const { return width_; }

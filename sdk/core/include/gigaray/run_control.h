@@ -23,12 +23,22 @@ class RunControl {
 
   /// Asks the running call to stop soon. Safe in a signal handler and from any thread.
   void cancel() { cancelled_.store(true, std::memory_order_relaxed); }
-  bool cancelled() const { return cancelled_.load(std::memory_order_relaxed); }
+  bool cancelled() const {
+    return cancelled_.load(std::memory_order_relaxed) && !kept_.load(std::memory_order_relaxed);
+  }
 
   /// Throws Error(kCancelled) when cancel() was called. Long loops call it often.
   void throw_if_cancelled() const {
     if (cancelled()) throw Error(ErrorCode::kCancelled, "stopped before the end; nothing was kept");
   }
+  /// The last moment to stop: throws when cancel() was called; after it cancel() is without effect,
+  /// since a result is being put in its place and "nothing was kept" would be wrong.
+  void keep_result() const {
+    throw_if_cancelled();
+    kept_.store(true, std::memory_order_relaxed);
+  }
+  /// Was a result put in its place?
+  bool has_kept() const { return kept_.load(std::memory_order_relaxed); }
   void progress(const std::string& stage, double done, double total) const {
     throw_if_cancelled();
     if (on_progress) on_progress(stage, done, total);
@@ -39,6 +49,7 @@ class RunControl {
 
  private:
   std::atomic<bool> cancelled_{false};
+  mutable std::atomic<bool> kept_{false};
 };
 
 }  // namespace gigaray

@@ -7,6 +7,10 @@
 
 namespace gigaray {
 
+/// The folder for temporary files: $TMPDIR, else the system's. Throws Error(kIo) naming TMPDIR when
+/// there is no such folder, with `advice` at the end of the line.
+std::string temporary_folder(const std::string& advice = "");
+
 /// Bytes in a file without a name, so that nothing is left behind, even after a crash. Different
 /// threads may use different bytes. Errors throw Error(kIo) naming the folder.
 class ScratchFile {

@@ -127,6 +127,8 @@ struct DepthOptions {
   /// Most memory to use, bytes; 0: three quarters of what is free. The result does not depend on
   /// it.
   double memory_bytes = 0;
+  /// What the caller takes of these bytes meanwhile; counts in every limit and forecast.
+  double memory_beside = 0;
   /// Where large intermediate data go when memory does not hold them. Empty: the folder for
   /// temporary files. Nothing is left there, even after a crash.
   std::string work_folder;

@@ -38,7 +38,8 @@ struct DeviceInfo {
 ///
 /// The first use of OpenCL also gives PoCL a home: unless POCL_CACHE_DIR is set, its compiled
 /// kernels go to the folder "pocl" in the kernel cache, or to a temporary folder when that can't be
-/// written (PoCL offers no device at all when its own folder is unwritable).
+/// written or has no room (PoCL ends the process when it runs out of it). Without any such folder
+/// the devices of PoCL are left out, and select_device() says why.
 std::vector<DeviceInfo> list_devices();
 
 /// The device that `selection` means: an index ("1"), a type ("cpu", "gpu"), or a part of a device
@@ -57,9 +58,10 @@ struct KernelCacheInfo {
 
 KernelCacheInfo kernel_cache_info();
 
-/// Removes the compiled kernels; keeps the user's tuning. Programs in memory stay usable, but not
-/// a kernel of a CPU device that has never run yet: clear before building anything, and while no
-/// other process builds. Throws Error(kIo) when something can't be removed.
+/// Removes the compiled kernels; keeps the user's tuning. Programs in memory stay usable, but a
+/// kernel of a CPU device that has never run yet would not: call it before the first use of OpenCL.
+/// Throws Error(kIo) when something can't be removed, or, with nothing removed, when the kernels are
+/// in use by a process with OpenCL on PoCL, be it this one.
 void clear_kernel_cache();
 
 /// Compile-time parameters of one kernel on one device.

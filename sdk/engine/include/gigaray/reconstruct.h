@@ -111,8 +111,14 @@ class Reconstruction {
 Reconstruction reconstruct(const LightField& light_field, const DepthOptions& options,
                            const BackendChoice& backend, const RunControl& control);
 
-/// Memory and disk of reconstruct() with these options. Reads no pixel.
-Forecast forecast(const LightField& light_field, const DepthOptions& options);
+/// Memory and disk of reconstruct() with these options. Reads pictures only where the input does
+/// not state the range, which then is estimated as reconstruct() does. Throws what reconstruct()
+/// would throw before its work, so the least memory that will do is the same.
+Forecast forecast(const LightField& light_field, const DepthOptions& options,
+                  const BackendChoice& backend = {});
+
+/// Least DepthOptions::memory_bytes that reconstruct() runs with, as its refusal names it.
+double least_memory_bytes(const LightField& light_field, const DepthOptions& options);
 
 /// Scores of one pixel: why it has the disparity that it has.
 struct ScoreCurve {

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Gigaray authors
+// gigaray.json of an output folder of `gigaray depth`; docs/formats.md.
+#include <nlohmann/json.hpp>
+
+#include "described_light_field.h"
+#include "gigaray/adapters/depth_folder.h"
+#include "gigaray/adapters/path_text.h"
+#include "text.h"
+
+namespace gigaray {
+namespace {
+
+using nlohmann::json;
+
+LightField parse(const json& root) {
+  LightField light_field;
+  const json& about = root.at("light_field");
+  light_field.format = about.at("format");
+  light_field.width = size_of(about, "width");
+  light_field.height = size_of(about, "height");
+  light_field.rig = rig_of(about);
+  for (const json& entry : root.at("views")) {
+    light_field.views.push_back(view_of(entry));
+    if (entry.contains("camera"))
+      light_field.cameras.push_back(camera_of(entry["camera"], light_field.views.back().name));
+  }
+  if (const auto left_out = root.find("left_out"); left_out != root.end())
+    for (const json& entry : *left_out) light_field.left_out.push_back(view_of(entry));
+  const std::string kind = about.at("kind");
+  if (kind == to_string(LightFieldKind::kUnstructured)) {
+    light_field.kind = LightFieldKind::kUnstructured;
+    if (light_field.cameras.size() != light_field.views.size())
+      throw Error(ErrorCode::kBadInput, "has not a camera for every view");
+  } else {
+    // Some views of a grid may lie on a line; the result stays what it was computed as.
+    light_field.kind =
+        kind == to_string(LightFieldKind::k3D) ? LightFieldKind::k3D : LightFieldKind::k4D;
+  }
+  return light_field;
+}
+
+}  // namespace
+
+DescribedDepth parse_depth_json(std::string_view text, const std::string& where) {
+  const auto bad = [&](const std::string& what) {
+    return Error(ErrorCode::kBadInput, where + ": " + what);
+  };
+  const json root = json::parse(text, nullptr, false);
+  if (!root.is_object()) throw bad("is damaged or no JSON object");
+  if (root.value("format", json()) != kDepthFormat)
+    throw bad("describes no result of `gigaray depth`; give its output folder");
+  DescribedDepth described;
+  try {
+    described.light_field = parse(root);
+    described.input = path_of_text(root.at("input").get<std::string>());
+    const json& range = root.at("options").at("disparity_range");
+    described.searched = {range.at(0), range.at(1)};
+  } catch (const json::exception& problem) {
+    throw bad(std::string("an entry is missing or of the wrong type (") + problem.what() + ")");
+  } catch (const Error& problem) {
+    throw Error(problem.code(), where + ": " + problem.what());
+  }
+  if (described.light_field.views.empty()) throw bad("names no view");
+  return described;
+}
+
+}  // namespace gigaray
