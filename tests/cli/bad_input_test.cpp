@@ -122,7 +122,7 @@ TEST_F(BadInput, PipesAndDevicesAreNoFiles) {
     for (const std::string command : {"info ", "decode -o out ", "depth -o out "})
       expect_refusal(command + place, 1, place, "not a file");
     expect_refusal("info pictures --positions " + place, 1, place, "not a file");
-    expect_refusal("evaluate made " + place, 1, place);
+    expect_refusal("evaluate made/truth.pfm " + place, 1, place);
     expect_refusal("evaluate " + place + " made/truth.pfm", 1, place);
     expect_refusal("compare made -o out --external " + place, 1, place);
   }

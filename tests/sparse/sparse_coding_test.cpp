@@ -144,7 +144,8 @@ TEST(TupleCoding, RestoresTheTuples) {
   for (const int band : {0, 1, 2})
     for (const int count : {0, 1, 3000}) {
       const TupleBand tuples = any_tuples(shape, band, count);
-      const TupleBand decoded = decode_tuples(shape, band, encode_tuples(shape, band, tuples), kEnough);
+      const TupleBand decoded =
+          decode_tuples(shape, band, encode_tuples(shape, band, tuples), kEnough);
       EXPECT_TRUE(decoded.tuples == tuples.tuples) << band << ", " << count;
       EXPECT_EQ(decoded.least_slope, tuples.least_slope);
       EXPECT_EQ(decoded.largest_slope, tuples.largest_slope);

@@ -2,8 +2,10 @@
 // Copyright (c) 2026 The Gigaray authors
 #include "opencl/cache_folder.h"
 
+#include <sys/resource.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cstdlib>
 #include <fstream>
@@ -123,6 +125,10 @@ std::optional<std::string> read_file(const fs::path& path) {
 std::string why_no_room(const fs::path& folder, std::uint64_t bytes) {
   std::error_code error;
   fs::create_directories(folder, error);
+  // Room on the disk is asked for; a limit on the size of one file (ulimit -f) is another matter.
+  rlimit one_file{};
+  if (getrlimit(RLIMIT_FSIZE, &one_file) == 0)
+    bytes = std::min<std::uint64_t>(bytes, one_file.rlim_cur);
   try {
     ScratchFile(folder.string()).reserve(bytes);
   } catch (const Error& failure) {
