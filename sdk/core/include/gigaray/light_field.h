@@ -123,9 +123,9 @@ std::vector<int> views_from_centre(const LightField& light_field);
 double normalise_positions(std::vector<View>& views);
 
 /// Sets s and t of unstructured views from their cameras: the positions along the two main
-/// directions of their spread, in steps of the median distance to the nearest neighbour, 0 in the
-/// middle. Returns that distance in scene units. Throws Error(kBadInput) when all stand at one
-/// place.
+/// directions of their spread, in steps of the median distance to the nearest neighbour at another
+/// place, 0 in the middle. Returns that distance in scene units. Throws Error(kBadInput) when all
+/// stand at one place.
 double place_by_cameras(LightField& light_field);
 
 /// 3D when all t are equal, else 4D.
