@@ -229,12 +229,15 @@ Run info_command(CLI::App& app) {
   return [options](const RunControl& control) {
     InputOptions& input = options->run.input;
     input.input = folder_of_photographs(input.input);
-    if (is_plain_folder(input.input, input.open))
+    if (is_plain_folder(input.input, input.open)) {
+      if (const std::string why = why_twice(input.input); !why.empty())
+        throw Error(ErrorCode::kBadInput, why);
       if (const std::string why = why_no_series(input.input, input.open.memory_bytes); !why.empty())
         throw Error(ErrorCode::kBadInput,
                     why +
                         "; as photographs from anywhere they get cameras from `gigaray depth`, "
                         "which runs COLMAP");
+    }
     const LightField light_field = input.open_light_field();
     const DepthForecast depth = forecast_depth(light_field, *options, control);
     if (options->json)

@@ -9,8 +9,8 @@
 #include <cmath>
 #include <system_error>
 
-#include "gigaray/adapters/input_file.h"
 #include "camera_position.h"
+#include "gigaray/adapters/input_file.h"
 #include "picture_files.h"
 #include "picture_lookup.h"
 #include "projection.h"
@@ -123,11 +123,11 @@ StatedView parse_mvsnet_camera(std::string_view text, const std::string& where) 
     bad("has " + std::to_string(words.size()) + " words; two words, 16 and 9 numbers and 2 to 4 " +
         "of depths are expected");
   using Words = std::vector<std::string>;
-  const auto numbers_at = [&](std::size_t first, std::size_t count) {
+  const auto numbers_at = [&](std::size_t first, std::size_t count, PoseAt pose = {}) {
     const auto begin = words.begin() + std::ptrdiff_t(first);
-    return finite_numbers(Words(begin, begin + std::ptrdiff_t(count)), 0, where);
+    return finite_numbers(Words(begin, begin + std::ptrdiff_t(count)), 0, where, pose);
   };
-  const std::vector<double> pose = numbers_at(1, kExtrinsic);
+  const std::vector<double> pose = numbers_at(1, kExtrinsic, {0, kExtrinsic});
   const std::vector<double> k = numbers_at(2 + kExtrinsic, kIntrinsic);
   StatedView view;
   set_projection(view, k.data(), where);

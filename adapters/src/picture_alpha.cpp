@@ -6,18 +6,16 @@
 #include <vector>
 
 #include "gigaray/error.h"
-#include "vips.h"
+#include "picture_loading.h"
 
 namespace gigaray {
 
-Mask read_alpha(const std::filesystem::path& path) {
-  use_vips();
+Mask read_alpha(const std::filesystem::path& path, double limit) {
   try {
-    const vips::VImage picture =
-        vips::VImage::new_from_file(path.c_str(), vips::VImage::option()
-                                                      ->set("access", VIPS_ACCESS_SEQUENTIAL)
-                                                      ->set("fail_on", VIPS_FAIL_ON_WARNING));
-    GIGARAY_CHECK(picture.has_alpha());
+    const vips::VImage picture = open_picture(path, limit);
+    if (!picture.has_alpha())
+      throw Error(ErrorCode::kBadInput,
+                  path.string() + ": has another kind of pixels than when it was opened");
     const bool is_deep = picture.format() == VIPS_FORMAT_USHORT;
     const double half = is_deep ? 32768 : 128;
     // 255 where the comparison holds.

@@ -9,7 +9,8 @@
 namespace gigaray {
 
 /// 1 where a picture with an alpha channel is at least half opaque, as the sensor saw it;
-/// everywhere when that is nowhere. Throws Error(kBadInput) naming the file.
-Mask read_alpha(const std::filesystem::path& path);
+/// everywhere when that is nowhere. Throws Error(kBadInput) naming the file, also when it takes
+/// more than `limit` bytes to decode.
+Mask read_alpha(const std::filesystem::path& path, double limit);
 
 }  // namespace gigaray

@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
+#include <limits>
 #include <memory>
 #include <mutex>
 #include <set>
+#include <system_error>
 
 #include "gigaray/adapters/input_file.h"
 #include "picture_alpha.h"
@@ -68,8 +70,8 @@ class PosedPictures : public PixelSource {
   /// without masks.
   Mask mask_of(const Source& source) const {
     if (!has_mask_) return {};
-    Mask seen =
-        source.has_alpha ? read_alpha(source.file) : Mask(source.width, source.height, 1, 1);
+    Mask seen = source.has_alpha ? read_alpha(source.file, limit_)
+                                 : Mask(source.width, source.height, 1, 1);
     if (seen.width() != source.width || seen.height() != source.height)
       bad(source.file, "has another size than when it was opened");
     if (source.mask.empty()) return seen;
@@ -185,11 +187,70 @@ Camera camera_of(const PosedPicture& picture, const Source& source) {
   return camera;
 }
 
+/// "2 of 6 pictures are left out: b.png (is missing), d.png (…)"
+std::string left_out_text(const std::vector<PosedPicture>& faulty, std::size_t of) {
+  constexpr std::size_t kMostNamed = 5;
+  std::string text = std::to_string(faulty.size()) + " of " + std::to_string(of) +
+                     (faulty.size() == 1 ? " pictures is left out: " : " pictures are left out: ");
+  for (std::size_t i = 0; i < std::min(faulty.size(), kMostNamed); ++i) {
+    const std::string path = faulty[i].file.string() + ": ";
+    const std::string& fault = faulty[i].fault;
+    text += (i > 0 ? ", " : "") + faulty[i].name + " (" +
+            (fault.starts_with(path) ? fault.substr(path.size()) : fault) + ")";
+  }
+  if (faulty.size() > kMostNamed)
+    text += " and " + std::to_string(faulty.size() - kMostNamed) + " more";
+  return text;
+}
+
+/// Takes those that can't be used out of `pictures`, with a note.
+void leave_out_faulty(std::vector<PosedPicture>& pictures, bool strict, double limit,
+                      std::vector<std::string>& notes) {
+  for (PosedPicture& picture : pictures)
+    if (picture.fault.empty()) picture.fault = fault_of_picture(picture.file, limit);
+  const auto usable = std::stable_partition(
+      pictures.begin(), pictures.end(), [](const auto& picture) { return picture.fault.empty(); });
+  if (usable == pictures.end()) return;
+  const std::vector<PosedPicture> faulty(usable, pictures.end());
+  const std::size_t all = pictures.size();
+  pictures.erase(usable, pictures.end());
+  if (strict) throw Error(ErrorCode::kBadInput, faulty.front().fault);
+  if (pictures.size() < kLeastPictures)
+    throw Error(ErrorCode::kBadInput, faulty.front().fault + "; of " + std::to_string(all) +
+                                          " pictures " + (pictures.empty() ? "none" : "only one") +
+                                          " can be used, depth needs two");
+  notes.push_back(left_out_text(faulty, all));
+}
+
 }  // namespace
 
+std::string fault_of_picture(const fs::path& file, double limit) {
+  std::error_code ignored;
+  if (!fs::exists(file, ignored)) return file.string() + ": is missing";
+  try {
+    read_picture_spec(file, Orientation::kIgnored, limit);
+  } catch (const Error& problem) {
+    // What is too large for the limit alone is no fault of the picture.
+    try {
+      read_picture_spec(file, Orientation::kIgnored, std::numeric_limits<double>::infinity());
+    } catch (const Error&) {
+      return problem.what();
+    }
+    throw;
+  }
+  if (!may_be_cut_short(file)) return {};
+  try {
+    PictureSpec spec;
+    decode_picture(file, Orientation::kIgnored, spec, limit);
+  } catch (const Error& problem) {
+    return problem.what();
+  }
+  return {};
+}
+
 LightField posed_light_field(std::vector<PosedPicture> pictures, const std::string& format,
-                             double memory_bytes) {
-  if (pictures.size() < 2)
+                             double memory_bytes, bool strict) {
+  if (pictures.size() < kLeastPictures)
     throw Error(ErrorCode::kBadInput,
                 "a light field needs two pictures with cameras or more, there is " +
                     std::string(pictures.empty() ? "none" : "only one"));
@@ -198,6 +259,7 @@ LightField posed_light_field(std::vector<PosedPicture> pictures, const std::stri
   light_field.format = format;
 
   const double limit = opening_limit(memory_bytes);
+  leave_out_faulty(pictures, strict, limit, light_field.notes);
   std::vector<Source> sources;
   std::vector<PictureSpec> specs;
   Undistortions undistortions;

@@ -18,6 +18,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char* kHciScene = "HCI scene";
+
 std::vector<std::unique_ptr<const Reader>> all_readers() {
   std::vector<std::unique_ptr<const Reader>> all;
   all.push_back(gigaray_json_reader());
@@ -64,6 +66,11 @@ const Reader& reader_for(const fs::path& input, const OpenOptions& options) {
     }
     if (!result.why_not.empty()) why_not = result.why_not;
   }
+  if (best && options.grid.rows > 0 && best->name() != kHciScene && best != readers().back().get())
+    throw Error(ErrorCode::kInvalidArgument,
+                "--grid: goes with pictures that have one number in their names, not with the "
+                "format " +
+                    best->name());
   if (best) return *best;
   throw Error(ErrorCode::kBadInput, input.string() + ": " + why_not);
 }
@@ -111,6 +118,8 @@ LightField open_light_field(const fs::path& input, const OpenOptions& options) {
   } catch (const Error& problem) {
     throw Error(problem.code(), input.string() + ": " + problem.what());
   }
+  if (const std::string note = unused_cameras(input, light_field.format); !note.empty())
+    light_field.notes.push_back(note);
   return light_field;
 }
 

@@ -53,7 +53,10 @@ void set_pose(StatedView& view, const Eigen::Matrix3d& axes, const Eigen::Vector
   const auto bad = [&](const char* what) {
     throw Error(ErrorCode::kBadInput, where + ": " + what);
   };
-  if (!axes.allFinite() || !position.allFinite()) bad("its pose holds a number that is not finite");
+  if (!axes.allFinite() || !position.allFinite()) {
+    view.fault = where + ": its pose holds a number that is not finite";
+    return;
+  }
   const Eigen::Matrix3d square = axes * axes.transpose();
   if ((square - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() > kRounding ||
       axes.determinant() < 0)
@@ -81,7 +84,8 @@ LightField open_stated_views(std::vector<StatedView> views, const fs::path& file
     if (names[i] == names[i - 1])
       throw Error(ErrorCode::kBadInput,
                   file.string() + ": states the camera of " + names[i] + " twice");
-  const fs::path folder = folder_of_pictures(file, {place}, names);
+  const fs::path folder =
+      folder_of_pictures(file, {place}, names, options.strict ? names.size() : kLeastPictures);
   const std::vector<std::string> view_name = view_names(names);
 
   const PictureLookup beside_file(file.parent_path());
@@ -92,7 +96,10 @@ LightField open_stated_views(std::vector<StatedView> views, const fs::path& file
     PosedPicture picture;
     picture.file = folder / names[i];
     picture.name = view_name[i];
-    complete_lens(view, picture.file, limit);
+    picture.fault = view.fault;
+    if (picture.fault.empty() && view.lens.width == 0)
+      picture.fault = fault_of_picture(picture.file, limit);
+    if (picture.fault.empty()) complete_lens(view, picture.file, limit);
     picture.lens = view.lens;
     picture.rotation = view.rotation;
     picture.translation = view.translation;
@@ -105,7 +112,8 @@ LightField open_stated_views(std::vector<StatedView> views, const fs::path& file
   }
   std::vector<std::string> notes;
   if (!options.masks.empty()) attach_masks(pictures, names, options.masks, notes);
-  LightField light_field = posed_light_field(std::move(pictures), format, options.memory_bytes);
+  LightField light_field =
+      posed_light_field(std::move(pictures), format, options.memory_bytes, options.strict);
   light_field.notes.insert(light_field.notes.begin(), notes.begin(), notes.end());
   return light_field;
 }

@@ -30,6 +30,7 @@ struct StatedView {
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
   Eigen::Vector3d translation = Eigen::Vector3d::Zero();
   std::optional<InverseDepthRange> inverse_depth;
+  std::string fault;  ///< why it can't be used, one line with the file; empty: it can
 };
 
 /// Parsers of one file each: text or bytes, and its name for messages. Throw Error(kBadInput)
@@ -41,8 +42,8 @@ StatedView parse_strecha_camera(std::string_view text, const std::string& where)
 StatedView parse_mvsnet_camera(std::string_view text, const std::string& where);
 
 /// Sets the pose of a camera that stands at `position`; axes: its right, down and ahead as columns,
-/// in the scene. Rounding in the file is made good; throws Error(kBadInput) when they are no
-/// rotation.
+/// in the scene. Rounding in the file is made good; numbers that are not finite are a fault of the
+/// view; throws Error(kBadInput) when the axes are no rotation.
 void set_pose(StatedView& view, const Eigen::Matrix3d& axes, const Eigen::Vector3d& position,
               const std::string& where);
 

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fstream>
 #include <initializer_list>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -82,12 +81,13 @@ class Entries {
   std::string where_;
 };
 
-/// Numbers of a matrix, by rows: a list of rows or of numbers. Empty when it is none.
+/// Numbers of a matrix, by rows: a list of rows or of numbers; null is NaN. Empty when it is none.
 std::vector<double> flat(const json& matrix) {
   std::vector<double> numbers;
   const auto take = [&](const json& number) {
     if (number.is_number()) numbers.push_back(number.get<double>());
-    return number.is_number();
+    if (number.is_null()) numbers.push_back(std::numeric_limits<double>::quiet_NaN());
+    return number.is_number() || number.is_null();
   };
   if (!matrix.is_array()) return {};
   for (const json& row : matrix)
@@ -198,10 +198,13 @@ StatedView view_of(const Entries& entries) {
 /// Has a file of JSON frames with poses? Looks at its beginning.
 bool states_frames(const fs::path& path) {
   if (lower(path.extension().string()) != ".json") return false;
-  std::ifstream file(path, std::ios::binary);
-  std::string head(1 << 16, '\0');
-  file.read(head.data(), std::streamsize(head.size()));
-  head.resize(std::size_t(file.gcount()));
+  constexpr std::uint64_t kHead = 1 << 16;
+  std::string head;
+  try {
+    head = InputFile(path).read(0, kHead);
+  } catch (const Error&) {
+    return false;
+  }
   std::erase(head, '\0');  // UTF-16
   return head.find("\"frames\"") != std::string::npos &&
          head.find("\"transform_matrix\"") != std::string::npos;
@@ -224,6 +227,28 @@ std::vector<fs::path> files_of_cameras(const fs::path& input) {
     found.insert(is_train ? found.begin() : found.end(), path);
   }
   return found;
+}
+
+/// Python writes NaN and Infinity, which JSON doesn't have.
+std::string with_null_for_nan(std::string_view text) {
+  std::string valid;
+  bool is_quoted = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] == '"') is_quoted = !is_quoted;
+    if (is_quoted && text[i] == '\\' && i + 1 < text.size()) valid += text[i++];
+    if (!is_quoted) {
+      const std::string_view rest = text.substr(i);
+      for (const std::string_view word : {"-Infinity", "Infinity", "-NaN", "NaN"})
+        if (rest.starts_with(word)) {
+          valid += "null";
+          i += word.size();
+          break;
+        }
+      if (i == text.size()) break;
+    }
+    valid += text[i];
+  }
+  return valid;
 }
 
 class TransformsJsonReader : public Reader {
@@ -258,7 +283,8 @@ class TransformsJsonReader : public Reader {
 }  // namespace
 
 std::vector<StatedView> parse_transforms_json(std::string_view text, const std::string& where) {
-  const json root = json::parse(text, nullptr, false);
+  json root = json::parse(text, nullptr, false);
+  if (root.is_discarded()) root = json::parse(with_null_for_nan(text), nullptr, false);
   if (!root.is_object())
     throw Error(ErrorCode::kBadInput, where + ": is damaged or no JSON object");
   const auto frames = root.find("frames");

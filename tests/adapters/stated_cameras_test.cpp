@@ -284,7 +284,9 @@ TEST_F(StatedCameras, NamesOfPicturesAreThoseOfOtherSystems) {
   json root = transforms();
   std::filesystem::rename(folder / "images/v1.png", folder / "v1.png");
   write("transforms.json", root.dump());
-  expect_bad(".", "images/v1.png", "missing");
+  OpenOptions strict;
+  strict.strict = true;
+  expect_bad_input("images/v1.png: is missing", strict);
 }
 
 TEST_F(StatedCameras, TransformsJsonIsReadInTheSpellingOfOtherWriters) {
@@ -364,7 +366,10 @@ TEST_F(StatedCameras, DamagedPosesBoundsAreOneLine) {
   expect_named(npy(std::vector<double>(48, 1.0), 16), "not 17");
   std::vector<double> changed = rows;
   changed[17] = std::nan("");
-  expect_named(npy(changed), "row 1");
+  write("poses_bounds.npy", npy(changed));
+  OpenOptions strict;
+  strict.strict = true;
+  expect_bad_input("row 1", strict);
   changed = rows;
   changed[17] = 0.5;
   expect_named(npy(changed), "rotation");
@@ -409,7 +414,10 @@ TEST_F(StatedCameras, DamagedMiddleburyParIsOneLine) {
   expect_named(changed, "'nan'");
   changed = good;
   changed.replace(changed.find("v1.png"), 6, "v9.png");
-  expect_named(changed, "v9.png");
+  write("scene_par.txt", changed);
+  OpenOptions strict;
+  strict.strict = true;
+  expect_bad_input("v9.png", strict);
 }
 
 TEST_F(StatedCameras, StrechaCamerasShowAKnownPointInItsPixel) {
