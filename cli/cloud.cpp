@@ -81,6 +81,7 @@ void run(const Settings& settings, const RunControl& control) {
                             {"points", report.points},
                             {"tiles", report.tiles},
                             {"bytes_on_disk", report.bytes_on_disk},
+                            {"origin", origin_json(report.origin)},
                             {"seconds", seconds}};
     fmt::print("{}\n", root.dump(2));
     return;
@@ -89,6 +90,7 @@ void run(const Settings& settings, const RunControl& control) {
   fmt::print("merged        {} points into {}, one per cube of {}{:.4g}\n", report.pixels.points,
              report.merged, settings.cloud.voxel > 0 ? "" : "pixel size, usually ", report.voxel);
   fmt::print("outliers      {} that stand alone\n", report.outliers);
+  print_origin(report.origin);
   fmt::print("{}: {} points in {:.1f} s\n", settings.output.path.string(), report.points, seconds);
 }
 

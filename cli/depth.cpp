@@ -97,16 +97,19 @@ ordered_json light_field_json(const LightField& light_field) {
     return value ? ordered_json(*value) : ordered_json(nullptr);
   };
   const RigGeometry& rig = light_field.rig;
-  return {{"format", light_field.format},
-          {"kind", to_string(light_field.kind)},
-          {"width", light_field.width},
-          {"height", light_field.height},
-          {"num_views", light_field.num_views()},
-          {"rig",
-           {{"focal_px", number(rig.focal_px)},
-            {"baseline", number(rig.baseline)},
-            {"focus_distance", number(rig.focus_distance)},
-            {"unit", rig.unit}}}};
+  ordered_json result{{"format", light_field.format},
+                      {"kind", to_string(light_field.kind)},
+                      {"width", light_field.width},
+                      {"height", light_field.height},
+                      {"num_views", light_field.num_views()},
+                      {"rig",
+                       {{"focal_px", number(rig.focal_px)},
+                        {"baseline", number(rig.baseline)},
+                        {"focus_distance", number(rig.focus_distance)},
+                        {"unit", rig.unit}}}};
+  if (const auto& point = rig.principal_point)
+    result["rig"]["principal_point_px"] = {point->x(), point->y()};
+  return result;
 }
 
 /// Unit of depth.pfm; null when there is none.

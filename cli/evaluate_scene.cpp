@@ -36,8 +36,8 @@ void require(const fs::path& path) {
     throw Error(ErrorCode::kBadInput, path.string() + ": no such file or folder");
 }
 
-constexpr std::initializer_list<const char*> kTruthNames{"truth.pfm", "gt_disp_lowres.pfm",
-                                                         "disp2.png", "disp1.png"};
+constexpr std::initializer_list<const char*> kTruthNames{
+    "truth.pfm", "gt_disp_lowres.pfm", "disp2.png", "disp1.png", "disp0GT.pfm", "disp0.pfm"};
 
 /// The path itself, or the first of `names` that the folder has, or nothing.
 fs::path look_for_map(const fs::path& path, std::initializer_list<const char*> names) {
@@ -238,6 +238,14 @@ SceneParts read_scene_parts(const fs::path& truth, const std::vector<std::string
   constexpr const char* kSeenByBoth = "nonocc";
   if (is_there(truth / "occl.png") && !parts.masks.contains(kSeenByBoth)) {
     parts.masks.emplace(kSeenByBoth, read_mask(truth / "occl.png", width, height));
+    parts.asked.push_back(kSeenByBoth);
+  }
+  // One of the newer sets has three values there: 255 both show it, 128 one does, 0 unknown.
+  constexpr std::uint16_t kBoth = 255;
+  if (is_there(truth / "mask0nocc.png") && !parts.masks.contains(kSeenByBoth)) {
+    LabelMap mask = read_mask(truth / "mask0nocc.png", width, height);
+    for (std::uint16_t& value : mask) value = value >= kBoth;
+    parts.masks.emplace(kSeenByBoth, std::move(mask));
     parts.asked.push_back(kSeenByBoth);
   }
   try {

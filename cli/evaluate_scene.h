@@ -28,7 +28,8 @@ std::vector<ViewMaps> find_view_maps(const std::vector<std::filesystem::path>& e
                                      const RunControl& control);
 
 /// Where the true disparity of a scene's centre view is: `place` itself when it is a file, else in
-/// the folder truth.pfm, gt_disp_lowres.pfm, or disp2.png or disp1.png of a Middlebury stereo pair.
+/// the folder truth.pfm, gt_disp_lowres.pfm, or of a Middlebury stereo pair disp2.png or disp1.png,
+/// of one with calib.txt disp0GT.pfm or disp0.pfm.
 /// Empty: the folder has none. Throws Error(kBadInput) when there is no such place.
 std::filesystem::path find_truth(const std::filesystem::path& place);
 

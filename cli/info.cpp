@@ -118,6 +118,8 @@ std::string rig_text(const RigGeometry& rig) {
   if (rig.baseline) parts.push_back(fmt::format("view step {:.6g} {}", *rig.baseline, unit));
   if (rig.focus_distance)
     parts.push_back(fmt::format("focus at {:.6g} {}", *rig.focus_distance, unit));
+  if (const auto& point = rig.principal_point)
+    parts.push_back(fmt::format("optical axis at {:.6g} {:.6g} px", point->x(), point->y()));
   return parts.empty() ? "unknown" : fmt::format("{}", fmt::join(parts, ", "));
 }
 
@@ -189,6 +191,8 @@ void print_json(const LightField& light_field, const DepthForecast& depth) {
                  {"baseline", number(rig.baseline)},
                  {"focus_distance", number(rig.focus_distance)},
                  {"unit", rig.unit}};
+  if (const auto& point = rig.principal_point)
+    root["rig"]["principal_point_px"] = {point->x(), point->y()};
   const Forecast& forecast = depth.forecast;
   if (depth.refusal.empty())
     root["forecast"] = {{"memory_mib", to_mib(forecast.memory_bytes)},
@@ -225,12 +229,15 @@ Run info_command(CLI::App& app) {
   return [options](const RunControl& control) {
     InputOptions& input = options->run.input;
     input.input = folder_of_photographs(input.input);
-    if (is_plain_folder(input.input, input.open))
+    if (is_plain_folder(input.input, input.open)) {
+      if (const std::string why = why_twice(input.input); !why.empty())
+        throw Error(ErrorCode::kBadInput, why);
       if (const std::string why = why_no_series(input.input, input.open.memory_bytes); !why.empty())
         throw Error(ErrorCode::kBadInput,
                     why +
                         "; as photographs from anywhere they get cameras from `gigaray depth`, "
                         "which runs COLMAP");
+    }
     const LightField light_field = input.open_light_field();
     const DepthForecast depth = forecast_depth(light_field, *options, control);
     if (options->json)

@@ -43,6 +43,15 @@ void parse_lenslet(const std::string& text, OpenOptions& open) {
   open.lenslet.rows = match[2].matched ? std::stoi(match[2]) : open.lenslet.columns;
 }
 
+void parse_grid(const std::string& text, OpenOptions& open) {
+  static const std::regex kSize(R"((\d{1,3})[xX](\d{1,3}))");
+  std::smatch match;
+  if (!std::regex_match(text, match, kSize) || std::stoi(match[1]) == 0 || std::stoi(match[2]) == 0)
+    throw CLI::ValidationError("--grid",
+                               "'" + text + "' is no number of rows and columns like 5x7");
+  open.grid = {std::stoi(match[1]), std::stoi(match[2])};
+}
+
 }  // namespace
 
 LightField InputOptions::open_light_field(const std::filesystem::path& place,
@@ -67,6 +76,11 @@ void InputOptions::add_to(CLI::App& app) {
          "assumed, and found by `depth` where views agree best)")
       ->type_name("WAY");
   app.add_option_function<std::string>(
+         "--grid", [this](const std::string& text) { parse_grid(text, open); },
+         "Numbered pictures: rows and columns of a grid that the numbers go through row by row, as "
+         "in 5x7")
+      ->type_name("RxC");
+  app.add_option_function<std::string>(
          "--lenslet", [this](const std::string& text) { parse_lenslet(text, open); },
          "One lenslet picture: its views across and down, as in 14 or 15x13 (default: 14 for "
          "…_eslf)")
@@ -78,6 +92,9 @@ void InputOptions::add_to(CLI::App& app) {
                  "Photographs with cameras: folder of masks, black is left out; NAME.png for the "
                  "picture NAME")
       ->type_name("DIR");
+  app.add_flag("--strict", open.strict,
+               "Photographs with cameras: one that is missing, damaged or without a finite pose is "
+               "an error, not left out");
   app.add_option("--without", without,
                  "Leave these views out, as if they had not been taken: names, indices, ranges")
       ->type_name("LIST");

@@ -141,6 +141,7 @@ void run(const Settings& settings, const RunControl& control) {
                             {"pieces_dropped", done.pieces_dropped},
                             {"holes_filled", done.holes_filled},
                             {"mesh", report_json(report)},
+                            {"origin", origin_json(mesh.origin)},
                             {"seconds", seconds}};
     fmt::print("{}\n", root.dump(2));
     return;
@@ -151,6 +152,7 @@ void run(const Settings& settings, const RunControl& control) {
                settings.cleaning.least_faces);
   if (settings.cleaning.hole_edges > 0) fmt::print("holes         {} filled\n", done.holes_filled);
   print_report(report);
+  print_origin(mesh.origin);
   fmt::print("{}: {} in {:.1f} s\n", settings.output.path.string(), settings.method, seconds);
 }
 

@@ -92,8 +92,12 @@ fs::path find_cameras(const fs::path& photographs, const ColmapRunOptions& optio
 LightField open_or_find_cameras(InputOptions input, const OutputOption& output,
                                 const RunControl& control) {
   input.input = folder_of_photographs(input.input);
-  const bool states_row = input.open.direction != Travel::kAuto || input.open.lenslet.columns > 0;
+  const bool states_row = input.open.direction != Travel::kAuto || input.open.lenslet.columns > 0 ||
+                          input.open.grid.rows > 0;
   if (states_row || !is_plain_folder(input.input, input.open)) return input.open_light_field();
+  if (const std::string twice = why_twice(input.input);
+      !twice.empty() && !(input.find_cameras && twice.find("--find-cameras") != std::string::npos))
+    throw Error(ErrorCode::kBadInput, twice);
   std::string why = input.find_cameras ? "" : why_no_row(input, control);
   if (!input.find_cameras && why.empty()) return input.open_light_field();
   if (!why.empty()) control.message(why + "; their cameras are found with COLMAP");
@@ -104,7 +108,11 @@ LightField open_or_find_cameras(InputOptions input, const OutputOption& output,
   open.images = input.input;
   open.masks = input.open.masks;
   open.memory_bytes = input.open.memory_bytes;
-  return input.open_light_field(work, open);
+  open.strict = input.open.strict;
+  LightField light_field = input.open_light_field(work, open);
+  if (const std::string note = unused_cameras(input.input, ""); !note.empty())
+    light_field.notes.push_back(note);
+  return light_field;
 }
 
 }  // namespace gigaray::cli

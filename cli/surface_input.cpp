@@ -121,4 +121,14 @@ nlohmann::ordered_json as_json(const PointCounts& counts) {
           {"points", counts.points}};
 }
 
+void print_origin(const Eigen::Vector3d& origin) {
+  if (origin.isZero(0)) return;
+  fmt::print("origin        {} {} {}: coordinates in the file are relative to it\n", origin.x(),
+             origin.y(), origin.z());
+}
+
+nlohmann::ordered_json origin_json(const Eigen::Vector3d& origin) {
+  return nlohmann::ordered_json::array({origin.x(), origin.y(), origin.z()});
+}
+
 }  // namespace gigaray::cli

@@ -48,4 +48,8 @@ struct SurfaceInput {
 void print(const PointCounts& counts, int num_views, const PointOptions& options);
 nlohmann::ordered_json as_json(const PointCounts& counts);
 
+/// The origin of a cloud or surface; nothing is printed for 0.
+void print_origin(const Eigen::Vector3d& origin);
+nlohmann::ordered_json origin_json(const Eigen::Vector3d& origin);
+
 }  // namespace gigaray::cli

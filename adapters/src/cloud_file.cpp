@@ -10,16 +10,19 @@
 namespace gigaray {
 namespace {
 
-std::string header(std::uint64_t points) {
-  return ply::begin_header(points, {"x", "y", "z", "nx", "ny", "nz", "confidence", "support"}) +
+std::string header(std::uint64_t points, const Eigen::Vector3d& origin) {
+  return ply::begin_header(points, origin,
+                           {"x", "y", "z", "nx", "ny", "nz", "confidence", "support"}) +
          "end_header\n";
 }
 
 }  // namespace
 
-CloudFile::CloudFile(AtomicFile file) : file_(std::move(file)) { file_.write(header(0)); }
+CloudFile::CloudFile(AtomicFile file) : file_(std::move(file)) {}
 
 void CloudFile::add(const PointCloud& cloud) {
+  if (!origin_) file_.write(header(0, *(origin_ = cloud.origin)));
+  GIGARAY_CHECK(cloud.origin == *origin_);
   std::string bytes;
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     const Eigen::Vector3f &p = cloud.positions[i], &n = cloud.normals[i];
@@ -34,7 +37,10 @@ void CloudFile::add(const PointCloud& cloud) {
 }
 
 void CloudFile::commit(const RunControl& control) {
-  file_.write_at_begin(header(points_));
+  if (origin_)
+    file_.write_at_begin(header(points_, *origin_));
+  else
+    file_.write(header(0, Eigen::Vector3d::Zero()));
   file_.commit(control);
 }
 

@@ -51,15 +51,15 @@ std::vector<fs::path> colmap_models_below(const fs::path& folder) {
 }
 
 FoundColmapModel largest_colmap_model(const std::vector<fs::path>& folders,
-                                      std::vector<std::string>& notes) {
+                                      std::vector<std::string>& notes, bool strict) {
   GIGARAY_CHECK(!folders.empty());
-  if (folders.size() == 1) return {folders[0], read_colmap_model(folders[0])};
+  if (folders.size() == 1) return {folders[0], read_colmap_model(folders[0], strict)};
   FoundColmapModel best;
   std::string sizes;
   std::optional<Error> problem;
   for (const fs::path& folder : folders) {
     try {
-      ColmapModel model = read_colmap_model(folder);
+      ColmapModel model = read_colmap_model(folder, strict);
       sizes += (sizes.empty() ? "" : ", ") + folder.filename().string() + " has " +
                std::to_string(model.images.size());
       if (model.images.size() > best.model.images.size()) best = {folder, std::move(model)};

@@ -23,8 +23,8 @@ struct FoundColmapModel {
 };
 
 /// Reads the model with the most images. Of several it notes their sizes and what can't be read.
-/// Throws Error(kBadInput) when none can. folders: one or more.
+/// Throws Error(kBadInput) when none can. folders: one or more. strict: as read_colmap_model.
 FoundColmapModel largest_colmap_model(const std::vector<std::filesystem::path>& folders,
-                                      std::vector<std::string>& notes);
+                                      std::vector<std::string>& notes, bool strict = true);
 
 }  // namespace gigaray

@@ -22,6 +22,11 @@ namespace fs = std::filesystem;
   throw Error(ErrorCode::kBadInput, where + ": " + what);
 }
 
+[[noreturn]] void bad_pose(const ColmapModel& model, const std::string& where) {
+  bad(where,
+      "image " + in_quotes(model.unposed.front()) + " has a pose with a number that is not finite");
+}
+
 bool is_file(const fs::path& path) {
   std::error_code ignored;
   return fs::is_regular_file(path, ignored);
@@ -49,8 +54,10 @@ void accept(ColmapModel::Image image, const std::string& where, ColmapModel& mod
     bad_image("has control characters in its name");
   const double length = image.rotation.norm();
   constexpr double kTolerance = 0.01;
-  if (!image.translation.allFinite() || !std::isfinite(length))
-    bad_image("has a pose with a number that is not finite");
+  if (!image.translation.allFinite() || !std::isfinite(length)) {
+    model.unposed.push_back(std::move(image.name));
+    return;
+  }
   if (std::abs(length - 1) > kTolerance)
     bad_image("has a quaternion of length " + std::to_string(length) + ", a rotation has 1");
   image.rotation.normalize();
@@ -70,6 +77,7 @@ void accept(ColmapModel::Point point, const std::string& where, ColmapModel& mod
 }
 
 void check(const ColmapModel& model, const std::string& where) {
+  if (model.images.empty() && !model.unposed.empty()) bad_pose(model, where);
   if (model.images.empty())
     bad(where, "no image is registered: COLMAP found no cameras; take pictures that overlap more");
   std::set<std::uint32_t> ids;
@@ -93,7 +101,7 @@ bool is_colmap_model(const fs::path& folder) {
   return has_parts(folder, ".bin") || has_parts(folder, ".txt");
 }
 
-ColmapModel read_colmap_model(const fs::path& folder) {
+ColmapModel read_colmap_model(const fs::path& folder, bool strict) {
   if (!is_colmap_model(folder))
     bad(folder.string(),
         "holds no COLMAP model: cameras.bin and images.bin, or the same as .txt, are needed");
@@ -109,12 +117,14 @@ ColmapModel read_colmap_model(const fs::path& folder) {
     const InputFile file(path);
     hold_against_limit(path.string(), "has " + std::to_string(file.size()) + " bytes",
                        kBytesPerByte * double(file.size()), limit);
-    parse_bytes(file.read(0, file.size()), path.string(), model);
+    std::string bytes = file.read(0, file.size());
+    parse_bytes(binary ? std::move(bytes) : as_utf8(std::move(bytes)), path.string(), model);
   };
   parse("cameras", parser.cameras);
   parse("images", parser.images);
   // Poses that were found by other means often come without.
   if (is_file(folder / ("points3D" + extension))) parse("points3D", parser.points);
+  if (strict && !model.unposed.empty()) bad_pose(model, (folder / ("images" + extension)).string());
   check(model, folder.string());
   return model;
 }

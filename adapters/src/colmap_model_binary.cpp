@@ -14,6 +14,8 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little);
 
+constexpr std::int32_t kEquirectangular = 17;  // as COLMAP 4 counts its camera models
+
 class ByteReader {
  public:
   ByteReader(std::string_view bytes, const std::string& where) : rest_(bytes), where_(where) {}
@@ -61,14 +63,20 @@ class ByteReader {
 
 void parse_cameras(std::string_view bytes, const std::string& where, ColmapModel& model) {
   ByteReader file(bytes, where);
-  const std::size_t count = file.get_count(4 + 4 + 8 + 8 + 3 * 8, "cameras");
+  const std::size_t count = file.get_count(4 + 4 + 8 + 8 + 2 * 8, "cameras");
   for (std::size_t i = 0; i < count; ++i) {
     const auto id = file.get<std::uint32_t>();
     const auto model_id = file.get<std::int32_t>();
+    if (model_id == kEquirectangular) {
+      accept(id, {"EQUIRECTANGULAR", 0, 0, {}}, where, model);  // which names it
+      continue;
+    }
     if (model_id < 0 || std::size_t(model_id) >= lens_models().size())
-      throw Error(ErrorCode::kBadInput, where + ": camera " + std::to_string(id) +
-                                            " has the unknown model number " +
-                                            std::to_string(model_id));
+      throw Error(ErrorCode::kBadInput,
+                  where + ": camera " + std::to_string(id) + " has the unknown model number " +
+                      std::to_string(model_id) +
+                      "; those of COLMAP 3.8 to 4 are known. `colmap "
+                      "image_undistorter` makes a model with pinhole cameras");
     Lens lens;
     lens.model = lens_models()[std::size_t(model_id)];
     const auto width = file.get<std::uint64_t>(), height = file.get<std::uint64_t>();

@@ -82,7 +82,7 @@ void parse_cameras(std::string_view bytes, const std::string& where, ColmapModel
   while (file.next_entry()) {
     const auto id = file.integer<std::uint32_t>("camera number");
     Lens lens;
-    lens.model = file.word("camera model");
+    lens.model = upper(std::string(file.word("camera model")));
     lens.width = file.integer<int>("width");
     lens.height = file.integer<int>("height");
     while (!file.at_end()) lens.params.push_back(file.number("parameter"));

@@ -10,8 +10,10 @@
 #include "colmap_folders.h"
 #include "mask_folder.h"
 #include "picture_folder.h"
+#include "picture_lookup.h"
 #include "posed_pictures.h"
 #include "readers.h"
+#include "text.h"
 #include "view_names.h"
 
 namespace gigaray {
@@ -102,18 +104,19 @@ class SparseDepths {
 LightField open_model(FoundColmapModel found, const OpenOptions& options,
                       std::vector<std::string> notes) {
   std::vector<ColmapModel::Image>& images = found.model.images;
-  if (images.size() < 2)
+  if (images.size() + found.model.unposed.size() < kLeastPictures)
     throw Error(ErrorCode::kBadInput,
                 found.folder.string() +
                     ": only one image is registered, depth needs two or more; take pictures that "
                     "overlap more");
   std::sort(images.begin(), images.end(),
             [](const auto& a, const auto& b) { return a.name < b.name; });
-  std::vector<std::string> names;
-  for (const ColmapModel::Image& image : images) names.push_back(image.name);
-  const fs::path folder = folder_of_pictures(
-      found.folder,
-      options.images.empty() ? folders_around(found.folder) : std::vector{options.images}, names);
+  std::vector<std::string> stated;
+  for (const ColmapModel::Image& image : images) stated.push_back(image.name);
+  const auto [place, names] = find_names(
+      options.images.empty() ? folders_around(found.folder) : std::vector{options.images}, stated);
+  const fs::path folder = folder_of_pictures(found.folder, {place}, names,
+                                             options.strict ? names.size() : kLeastPictures);
   const std::vector<std::string> views = view_names(names);
 
   const SparseDepths depths(found.model);
@@ -129,12 +132,21 @@ LightField open_model(FoundColmapModel found, const OpenOptions& options,
     pictures.push_back(std::move(picture));
   }
   if (!options.masks.empty()) attach_masks(pictures, names, options.masks, notes);
+  for (const std::string& name : found.model.unposed) {
+    PosedPicture picture;
+    picture.file = folder / name;
+    picture.name = name;
+    picture.fault = found.folder.string() + ": the pose of " + in_quotes(name) +
+                    " holds a number that is not finite";
+    pictures.push_back(std::move(picture));
+  }
   for (const char* part : {"rigs.bin", "rigs.txt", "frames.bin", "frames.txt"})
     if (is_there(found.folder / part)) {
       notes.push_back("rigs and frames of the model are ignored; its images state every pose");
       break;
     }
-  LightField light_field = posed_light_field(std::move(pictures), kName, options.memory_bytes);
+  LightField light_field =
+      posed_light_field(std::move(pictures), kName, options.memory_bytes, options.strict);
   light_field.notes.insert(light_field.notes.begin(), notes.begin(), notes.end());
   return light_field;
 }
@@ -153,7 +165,7 @@ class ColmapReader : public Reader {
   LightField open(const fs::path& input, const OpenOptions& options) const override {
     refuse_direction(options, "the COLMAP model states");
     std::vector<std::string> notes;
-    FoundColmapModel found = largest_colmap_model(colmap_models_of(input), notes);
+    FoundColmapModel found = largest_colmap_model(colmap_models_of(input), notes, options.strict);
     return open_model(std::move(found), options, std::move(notes));
   }
 };

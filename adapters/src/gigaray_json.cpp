@@ -92,8 +92,12 @@ View view_of(const json& entry) {
 RigGeometry rig_of(const json& root) {
   const auto rig = root.find("rig");
   if (rig == root.end()) return {};
-  return {optional_number(*rig, "focal_px"), optional_number(*rig, "baseline"),
-          optional_number(*rig, "focus_distance"), rig->value("unit", "")};
+  RigGeometry result{optional_number(*rig, "focal_px"), optional_number(*rig, "baseline"),
+                     optional_number(*rig, "focus_distance"), rig->value("unit", "")};
+  const auto point = rig->find("principal_point_px");
+  if (point != rig->end() && !point->is_null())
+    result.principal_point = Eigen::Vector2d(point->at(0), point->at(1));
+  return result;
 }
 
 int size_of(const json& entry, const char* key) {
@@ -153,6 +157,8 @@ nlohmann::ordered_json description_of(const LightField& light_field) {
   if (light_field.rig.baseline) rig["baseline"] = *light_field.rig.baseline;
   if (light_field.rig.focus_distance) rig["focus_distance"] = *light_field.rig.focus_distance;
   if (!light_field.rig.unit.empty()) rig["unit"] = light_field.rig.unit;
+  if (const auto& point = light_field.rig.principal_point)
+    rig["principal_point_px"] = {point->x(), point->y()};
   root["rig"] = rig;
   for (const View& view : light_field.views)
     root["views"].push_back({{"name", view.name}, {"s", view.s}, {"t", view.t}});

@@ -4,6 +4,7 @@
 // input_CamNNN.png with NNN = row · columns + column from the top left camera, as seen from behind
 // the rig, and parameters.cfg. Parallel cameras, sensors shifted so that focus_distance_m has
 // disparity 0.
+#include <cmath>
 #include <map>
 #include <regex>
 
@@ -63,6 +64,13 @@ double origin(int cameras, int lowest, int highest) {
   return lowest < middle && middle < highest ? middle : (lowest + highest) / 2.0;
 }
 
+/// Columns and rows of a grid that nothing states: numbers 0 … n² - 1 without a gap fill n × n.
+int usual_side(const std::map<int, fs::path>& cameras) {
+  const int count = int(cameras.size()), side = int(std::lround(std::sqrt(count)));
+  const bool is_square = side > 1 && side * side == count && cameras.rbegin()->first == count - 1;
+  return is_square ? side : kUsualCameras;
+}
+
 class HciReader : public Reader {
  public:
   std::string name() const override { return "HCI scene"; }
@@ -82,14 +90,18 @@ class HciReader : public Reader {
     std::optional<HciParameters> parameters;
     if (fs::exists(parameter_file, ignored))
       parameters.emplace(read_text(parameter_file), parameter_file.string());
-    const int columns =
-        parameters ? parameters->cameras("num_cams_x", kUsualCameras) : kUsualCameras;
-    const int rows = parameters ? parameters->cameras("num_cams_y", kUsualCameras) : kUsualCameras;
+    const int usual = usual_side(cameras);
+    int columns = options.grid.columns, rows = options.grid.rows;
+    if (rows == 0) {
+      columns = parameters ? parameters->cameras("num_cams_x", kUsualCameras) : usual;
+      rows = parameters ? parameters->cameras("num_cams_y", kUsualCameras) : usual;
+    }
     const std::string grid = std::to_string(columns) + "×" + std::to_string(rows);
     if (!parameters)
       light_field.notes.push_back(
-          "no parameters.cfg: a grid of " + grid +
-          " cameras is assumed, the disparity range and the rig are unknown");
+          "no parameters.cfg: a grid of " + grid + " cameras is " +
+          (options.grid.rows > 0 ? "stated" : "assumed (--grid states it)") +
+          ", the disparity range and the rig are unknown");
 
     int left = columns, right = 0, top = rows, bottom = 0;
     for (const auto& [number, path] : cameras) {
@@ -97,7 +109,7 @@ class HciReader : public Reader {
         throw Error(ErrorCode::kBadInput,
                     path.string() + ": camera " + std::to_string(number) +
                         " is outside a grid of " + grid +
-                        "; num_cams_x and num_cams_y in parameters.cfg state the grid");
+                        "; num_cams_x and num_cams_y in parameters.cfg or --grid state the grid");
       left = std::min(left, number % columns);
       right = std::max(right, number % columns);
       top = std::min(top, number / columns);

@@ -2,7 +2,9 @@
 // Copyright (c) 2026 The Gigaray authors
 // A folder of numbered pictures, taken along a line at equal steps or at stated positions.
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
+#include <map>
 #include <optional>
 
 #include "camera_position.h"
@@ -12,6 +14,8 @@
 #include "picture_files.h"
 #include "positions_file.h"
 #include "readers.h"
+#include "text.h"
+#include "view_grid.h"
 
 namespace gigaray {
 namespace {
@@ -102,6 +106,7 @@ class ImageSequenceReader : public Reader {
     if (pictures.size() < 2)
       bad(input, "only one picture, " + pictures.front().filename().string() +
                      "; a light field needs two or more");
+    if (options.grid.rows > 0) return open_grid(input, pictures, options);
     return options.positions.empty() ? open_numbered(input, pictures, options)
                                      : open_placed(pictures, options);
   }
@@ -131,6 +136,41 @@ class ImageSequenceReader : public Reader {
           "numbers rise (--direction states it)");
     }
     attach_pictures(light_field, std::move(series.files), options.memory_bytes);
+    return light_field;
+  }
+
+  /// Row by row as the number rises.
+  static LightField open_grid(const fs::path& input, const std::vector<fs::path>& pictures,
+                              const OpenOptions& options) {
+    const auto refuse = [](const std::string& what) {
+      throw Error(ErrorCode::kInvalidArgument, "--grid: " + what);
+    };
+    if (!options.positions.empty()) refuse("--positions states where the pictures stand");
+    const auto [rows, columns] = options.grid;
+    const Directions directions = Directions::of_grid(options, Travel::kRight, Travel::kDown);
+    Series series = series_of(input, pictures);
+    if (series.files.size() < 2) bad(input, "only one numbered picture; a light field needs two");
+    const std::vector<double> steps = steps_from_numbers(series.numbers, series.notes);
+    const double cells = steps.back() + 1;
+    if (cells > double(rows) * columns || cells <= double(rows - 1) * columns)
+      refuse("the " + std::to_string(series.files.size()) + " pictures of " + input.string() +
+             " are no grid of " + std::to_string(rows) + " rows and " + std::to_string(columns) +
+             " columns");
+
+    LightField light_field;
+    light_field.notes = std::move(series.notes);
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+      const int cell = int(std::lround(steps[i]));
+      View view;
+      view.name = series.files[i].stem().string();
+      directions.place(view, cell % columns - (columns - 1) / 2.0,
+                       cell / columns - (rows - 1) / 2.0);
+      light_field.views.push_back(view);
+    }
+    light_field.kind = kind_from_positions(light_field.views);
+    assume_directions(light_field, directions);
+    attach_pictures(light_field, std::move(series.files), options.memory_bytes);
+    leave_out_dark_views(light_field);
     return light_field;
   }
 
@@ -176,6 +216,40 @@ std::string why_no_series(const fs::path& folder, double memory_bytes) {
     return problem.what();
   }
   return {};
+}
+
+std::string why_twice(const fs::path& folder) {
+  const std::vector<fs::path> pictures = pictures_of(folder);
+  std::map<std::string, std::vector<std::string>> copies;
+  for (const fs::path& path : pictures)
+    copies[lower(path.stem().string())].push_back(path.filename().string());
+  std::size_t num_copies = 0;
+  const std::vector<std::string>* first = nullptr;
+  for (const auto& [stem, names] : copies) {
+    if (names.size() < 2) continue;
+    num_copies += names.size();
+    if (!first) first = &names;
+  }
+  if (first && 2 * num_copies > pictures.size())
+    return folder.string() + ": holds pictures twice, such as " + first->at(0) + " and " +
+           first->at(1) + "; keep one of each";
+
+  constexpr std::size_t kLeastOfSeries = 3;
+  std::vector<fs::path> rest = pictures;
+  NameGroup series[2];
+  for (NameGroup& one : series) {
+    one = largest_group(rest);
+    if (one.pictures.size() < kLeastOfSeries || one.changing.size() != 1) return {};
+    std::erase_if(rest, [&](const fs::path& path) {
+      return std::ranges::any_of(one.pictures,
+                                 [&](const auto& picture) { return picture.path == path; });
+    });
+  }
+  if (2 * series[1].pictures.size() <= series[0].pictures.size()) return {};
+  return folder.string() + ": holds more than one series of pictures, " + series[0].first_name() +
+         " … and " + series[1].first_name() +
+         " …; keep one per folder (--find-cameras of `gigaray depth` takes them as photographs of "
+         "one place)";
 }
 
 std::unique_ptr<const Reader> image_sequence_reader() {

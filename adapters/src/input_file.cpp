@@ -13,6 +13,7 @@
 
 #include "gigaray/error.h"
 #include "gigaray/memory_limit.h"
+#include "text.h"
 
 namespace gigaray {
 namespace {
@@ -111,10 +112,10 @@ std::string read_bytes(const fs::path& path, double most) {
   return file.read(0, file.size());
 }
 
-std::string read_text(const fs::path& path) { return read_bytes(path, double(kMostText)); }
+std::string read_text(const fs::path& path) { return as_utf8(read_bytes(path, double(kMostText))); }
 
 std::string read_json_text(const fs::path& path, double memory_bytes) {
-  std::string text = read_bytes(path, double(kMostJson));
+  std::string text = as_utf8(read_bytes(path, double(kMostJson)));
   check_json(text, path.string(), memory_bytes);
   return text;
 }

@@ -2,7 +2,8 @@
 // Copyright (c) 2026 The Gigaray authors
 // COLMAP's camera models, https://colmap.github.io/cameras.html: OpenCV's radial, tangential and
 // rational distortion; its fisheye (Kannala and Brandt 2006); FOV (Devernay and Faugeras 2001);
-// thin prism (Weng et al. 1992); Fisheye624 of Project Aria. All but FOV are one formula with some
+// thin prism (Weng et al. 1992); Fisheye624 of Project Aria; division (Fitzgibbon 2001); enhanced
+// unified (Khomutenko et al. 2016). All but FOV, division and EUCM are one formula with some
 // coefficients at 0, of the direction itself or of the direction at the length of its angle.
 #include "gigaray/adapters/lens.h"
 
@@ -33,7 +34,7 @@ struct Model {
 };
 
 // In the order of COLMAP's numbers.
-constexpr std::array<Model, 12> kModels{{{"SIMPLE_PINHOLE", 1, 0, false},
+constexpr std::array<Model, 17> kModels{{{"SIMPLE_PINHOLE", 1, 0, false},
                                          {"PINHOLE", 2, 0, false},
                                          {"SIMPLE_RADIAL", 1, 1, false},
                                          {"RADIAL", 1, 2, false},
@@ -44,7 +45,14 @@ constexpr std::array<Model, 12> kModels{{{"SIMPLE_PINHOLE", 1, 0, false},
                                          {"SIMPLE_RADIAL_FISHEYE", 1, 1, true},
                                          {"RADIAL_FISHEYE", 1, 2, true},
                                          {"THIN_PRISM_FISHEYE", 2, 8, true},
-                                         {"RAD_TAN_THIN_PRISM_FISHEYE", 2, 12, true}}};
+                                         {"RAD_TAN_THIN_PRISM_FISHEYE", 2, 12, true},
+                                         {"SIMPLE_DIVISION", 1, 1, false},
+                                         {"DIVISION", 2, 1, false},
+                                         {"SIMPLE_FISHEYE", 1, 0, true},
+                                         {"FISHEYE", 2, 0, true},
+                                         {"EUCM", 2, 2, false}}};
+/// COLMAP's number 17, and what a branch of it calls the same.
+constexpr std::array<const char*, 2> kPanoramas{"EQUIRECTANGULAR", "SPHERICAL"};
 
 const Model* find_model(const std::string& name) {
   const auto found = std::find_if(kModels.begin(), kModels.end(),
@@ -116,10 +124,15 @@ void check(const Lens& lens, const std::string& where) {
   const auto bad = [&](const std::string& what) {
     throw Error(ErrorCode::kBadInput, where + ": " + what);
   };
+  if (std::find(kPanoramas.begin(), kPanoramas.end(), lens.model) != kPanoramas.end())
+    bad("the camera model " + lens.model +
+        " is that of a panorama, which no pinhole camera can show; cut the panoramas into pictures "
+        "before COLMAP finds the cameras");
   const Model* model = find_model(lens.model);
   if (!model)
     bad("the camera model " + in_quotes(lens.model) +
-        " is unknown; those of COLMAP 3.8 to 3.12 are known");
+        " is unknown; those of COLMAP 3.8 to 4 are known. `colmap image_undistorter` makes a model "
+        "with pinhole cameras");
   if (int(lens.params.size()) != model->num_params())
     bad("the camera model " + lens.model + " has " + std::to_string(model->num_params()) +
         " parameters, here are " + std::to_string(lens.params.size()));
@@ -142,6 +155,9 @@ void check(const Lens& lens, const std::string& where) {
       bad("a principal point at " + std::to_string(lens.params[i]) + " px is absurd");
   if (lens.model == "FOV" && std::abs(lens.params[4]) >= std::numbers::pi)
     bad("a field of view of 180 degrees or more is absurd");
+  if (lens.model == "EUCM" && !(lens.params[4] >= 0 && lens.params[4] <= 1 && lens.params[5] > 0))
+    bad("EUCM has an alpha from 0 to 1 and a beta above 0, here are " +
+        std::to_string(lens.params[4]) + " and " + std::to_string(lens.params[5]));
 }
 
 Lens centred_pinhole(int width, int height, double focal) {
@@ -158,6 +174,7 @@ Lens pinhole_lens(const Camera& camera) {
 
 bool is_pinhole(const Lens& lens) {
   const Model& model = model_of(lens);
+  if (lens.model == "EUCM") return lens.params[4] == 0;
   return !model.fisheye && std::all_of(lens.params.end() - model.num_distortion, lens.params.end(),
                                        [](double x) { return x == 0; });
 }
@@ -192,6 +209,13 @@ void LensMap::set_distortion(const Lens& lens) {
     field_of_view_ = std::abs(k[0]);
     // Below, the formula is a pinhole to the last digit, but divides by nothing.
     if (field_of_view_ > 1e-8) projection_ = Projection::kFieldOfView;
+  } else if (name == "SIMPLE_DIVISION" || name == "DIVISION") {
+    projection_ = Projection::kDivision;
+    division_ = k[0];
+  } else if (name == "EUCM") {
+    projection_ = Projection::kUnified;
+    alpha_ = k[0];
+    beta_ = k[1];
   } else if (name == "OPENCV" || name == "FULL_OPENCV" || name == "THIN_PRISM_FISHEYE") {
     above_ = {k[0], k[1]};
     p1_ = k[2];
@@ -249,6 +273,12 @@ std::optional<Vector2d> LensMap::distort(const Vector2d& direction) const {
   Vector2d seen = direction;
   if (projection_ == Projection::kFieldOfView) {
     if (r > 0) seen *= std::atan(2 * r * std::tan(field_of_view_ / 2)) / (r * field_of_view_);
+  } else if (projection_ == Projection::kDivision) {
+    const double square = 1 - 4 * division_ * r * r;
+    if (!(square > 0)) return std::nullopt;
+    seen *= 2 / (1 + std::sqrt(square));
+  } else if (projection_ == Projection::kUnified) {
+    seen /= alpha_ * std::sqrt(beta_ * r * r + 1) + 1 - alpha_;
   } else {
     const double length = projection_ == Projection::kFisheye ? std::atan(r) : r;
     if (length >= limit_) return std::nullopt;
@@ -269,11 +299,27 @@ std::optional<Vector2d> LensMap::undistort(const Vector2d& pixel) const {
     const double length = std::tan(angle) / (2 * std::tan(field_of_view_ / 2));
     return r > 0 ? Vector2d(seen * (length / r)) : seen;
   }
+  if (projection_ == Projection::kDivision || projection_ == Projection::kUnified) {
+    const double ahead =
+        projection_ == Projection::kDivision ? ahead_of_divided(r * r) : ahead_of_unified(r * r);
+    return ahead > 0 ? std::optional<Vector2d>(seen / ahead) : std::nullopt;
+  }
   std::optional<Vector2d> at = unbend(seen);
   if (!at || projection_ == Projection::kPerspective) return at;
   const double angle = at->norm();
   if (angle >= kRightAngle) return std::nullopt;
   return angle > 0 ? Vector2d(*at * (std::tan(angle) / angle)) : at;
+}
+
+// Where the picture is bent inwards it folds back at the root of 1 / division_.
+double LensMap::ahead_of_divided(double square) const {
+  return division_ * square < 1 ? 1 + division_ * square : 0;
+}
+
+double LensMap::ahead_of_unified(double square) const {
+  const double bent = beta_ * square, root = 1 - (2 * alpha_ - 1) * bent;
+  if (!(root >= 0)) return 0;
+  return (1 - alpha_ * alpha_ * bent) / (alpha_ * std::sqrt(root) + 1 - alpha_);
 }
 
 // The radial part is inverted by bisection, which always finds it; Newton's iteration on the whole

@@ -11,6 +11,7 @@
 #include "camera_position.h"
 #include "gigaray/adapters/input_file.h"
 #include "npy_matrix.h"
+#include "numbered_names.h"
 #include "picture_files.h"
 #include "readers.h"
 #include "stated_views.h"
@@ -42,6 +43,27 @@ fs::path folder_beside(const fs::path& file) {
   return reduced.empty() ? folder : *std::min_element(reduced.begin(), reduced.end());
 }
 
+/// The rows are in the order of the names; where pictures are missing, numbers without another gap
+/// tell which. False: nothing tells.
+bool name_views(std::vector<StatedView>& views, const std::vector<fs::path>& pictures,
+                bool strict) {
+  if (pictures.size() == views.size()) {
+    for (std::size_t i = 0; i < views.size(); ++i)
+      views[i].picture = pictures[i].filename().string();
+    return true;
+  }
+  const NameGroup group = largest_group(pictures);
+  if (strict || group.pictures.size() != pictures.size() || group.changing.size() != 1)
+    return false;
+  const std::size_t which = *group.changing.begin();
+  const std::uint64_t first = group.pictures.front().numbers[which];
+  if (group.pictures.back().numbers[which] - first + 1 != views.size()) return false;
+  for (std::size_t i = 0; i < views.size(); ++i) views[i].picture = "row " + std::to_string(i);
+  for (const NumberedPicture& picture : group.pictures)
+    views[picture.numbers[which] - first].picture = picture.path.filename().string();
+  return true;
+}
+
 class LlffReader : public Reader {
  public:
   std::string name() const override { return kName; }
@@ -59,13 +81,11 @@ class LlffReader : public Reader {
     std::vector<StatedView> views = parse_poses_bounds(read_text(file), file.string());
     const fs::path folder = options.images.empty() ? folder_beside(file) : options.images;
     const std::vector<fs::path> pictures = pictures_of(folder);
-    if (pictures.size() != views.size())
+    if (!name_views(views, pictures, options.strict))
       throw Error(ErrorCode::kBadInput, file.string() + ": states " + std::to_string(views.size()) +
                                             " cameras, but " + folder.string() + " holds " +
                                             std::to_string(pictures.size()) +
                                             " pictures; name their folder with --images");
-    for (std::size_t i = 0; i < views.size(); ++i)
-      views[i].picture = pictures[i].filename().string();
     return open_stated_views(std::move(views), file, {folder}, options, kName);
   }
 };

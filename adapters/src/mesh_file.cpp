@@ -7,9 +7,12 @@
 
 #include <array>
 #include <string>
+#include <string_view>
 
 #include "gigaray/adapters/atomic_output.h"
 #include "gigaray/error.h"
+#include "glb.h"
+#include "origin_text.h"
 #include "ply.h"
 
 namespace gigaray {
@@ -30,9 +33,10 @@ const Format& format_of(const std::filesystem::path& path) {
 }
 
 std::string ply_of(const SurfaceMesh& mesh) {
-  std::string bytes = ply::begin_header(mesh.positions.size(), {"x", "y", "z", "nx", "ny", "nz"}) +
-                      "element face " + std::to_string(mesh.faces.size()) +
-                      "\nproperty list uchar uint vertex_indices\nend_header\n";
+  std::string bytes =
+      ply::begin_header(mesh.positions.size(), mesh.origin, {"x", "y", "z", "nx", "ny", "nz"}) +
+      "element face " + std::to_string(mesh.faces.size()) +
+      "\nproperty list uchar uint vertex_indices\nend_header\n";
   for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
     const Eigen::Vector3f &p = mesh.positions[i], &n = mesh.normals[i];
     for (const float number : {p.x(), p.y(), p.z(), n.x(), n.y(), n.z()})
@@ -47,8 +51,11 @@ std::string ply_of(const SurfaceMesh& mesh) {
 }
 
 /// The scene owns what it points to.
-aiScene scene_of(const SurfaceMesh& surface, bool turned) {
-  const float turn = turned ? -1 : 1;
+aiScene scene_of(const SurfaceMesh& surface, bool is_gltf) {
+  const float turn = is_gltf ? -1 : 1;
+  const auto value = [&](std::uint8_t srgb) {
+    return is_gltf ? glb::linear(srgb) : float(srgb) / 255;
+  };
   auto* mesh = new aiMesh;
   mesh->mPrimitiveTypes = aiPrimitiveType_TRIANGLE;
   mesh->mNumVertices = unsigned(surface.positions.size());
@@ -60,8 +67,7 @@ aiScene scene_of(const SurfaceMesh& surface, bool turned) {
     const Rgb8& colour = surface.colours[i];
     mesh->mVertices[i] = {p.x(), turn * p.y(), turn * p.z()};
     mesh->mNormals[i] = {n.x(), turn * n.y(), turn * n.z()};
-    mesh->mColors[0][i] = {float(colour[0]) / 255, float(colour[1]) / 255, float(colour[2]) / 255,
-                           1};
+    mesh->mColors[0][i] = {value(colour[0]), value(colour[1]), value(colour[2]), 1};
   }
   mesh->mNumFaces = unsigned(surface.faces.size());
   mesh->mFaces = new aiFace[mesh->mNumFaces];
@@ -81,6 +87,18 @@ aiScene scene_of(const SurfaceMesh& surface, bool turned) {
   return scene;
 }
 
+/// The file that Assimp made, with what it can't state.
+std::string completed(std::string_view bytes, const std::filesystem::path& path,
+                      const Eigen::Vector3d& origin) {
+  if (path.extension() == ".glb") return glb::completed(bytes, origin);
+  if (origin.isZero(0)) return std::string(bytes);
+  if (path.extension() == ".obj") return "# " + origin_text(origin) + "\n" + std::string(bytes);
+  constexpr std::size_t kStlHead = 80;
+  std::string head = "Gigaray, " + origin_text(origin);
+  head.resize(kStlHead, ' ');
+  return head + std::string(bytes.substr(kStlHead));
+}
+
 }  // namespace
 
 void write_mesh(AtomicFile& file, const std::filesystem::path& path, const SurfaceMesh& mesh) {
@@ -90,11 +108,13 @@ void write_mesh(AtomicFile& file, const std::filesystem::path& path, const Surfa
   GIGARAY_CHECK(mesh.normals.size() == mesh.positions.size() &&
                 mesh.colours.size() == mesh.positions.size());
   if (path.extension() == ".ply") return file.write(ply_of(mesh));
-  const aiScene scene = scene_of(mesh, path.extension() == ".glb");
+  const bool is_gltf = path.extension() == ".glb";
+  const aiScene scene = scene_of(mesh, is_gltf);
   Assimp::Exporter exporter;
   const aiExportDataBlob* blob = exporter.ExportToBlob(&scene, format.assimp_id);
   if (!blob) throw Error(ErrorCode::kIo, path.string() + ": " + exporter.GetErrorString());
-  file.write({static_cast<const char*>(blob->data), blob->size});
+  const std::string_view bytes(static_cast<const char*>(blob->data), blob->size);
+  file.write(completed(bytes, path, mesh.origin));
 }
 
 void write_mesh(const std::filesystem::path& path, const SurfaceMesh& mesh) {

@@ -77,7 +77,7 @@ std::vector<StatedView> parse_middlebury_par(std::string_view text, const std::s
     if (words.size() != kWords)
       throw Error(ErrorCode::kBadInput, place + ": has " + std::to_string(words.size()) +
                                             " words; a picture and 21 numbers are expected");
-    const std::vector<double> numbers = finite_numbers(words, 1, place);
+    const std::vector<double> numbers = finite_numbers(words, 1, place, {9, 21});
     StatedView view;
     view.picture = words.front();
     set_projection(view, numbers.data(), place);

@@ -13,6 +13,7 @@
 #include "numbered_names.h"
 #include "picture_files.h"
 #include "readers.h"
+#include "view_grid.h"
 
 namespace gigaray {
 namespace {
@@ -139,6 +140,7 @@ class NamedGridReader : public Reader {
     }
     light_field.kind = kind_from_positions(light_field.views);
     attach_pictures(light_field, std::move(files), options.memory_bytes);
+    leave_out_dark_views(light_field);
     return light_field;
   }
 };

@@ -123,6 +123,16 @@ PictureSpec read_picture_spec(const fs::path& path, Orientation orientation, dou
   }
 }
 
+bool may_be_cut_short(const fs::path& path) {
+  constexpr std::uint64_t kTail = 4096;  // some writers append notes of their own
+  const InputFile file(path);
+  const std::string head = file.read(0, 4);
+  const std::string tail = file.read(file.size() - std::min(file.size(), kTail), kTail);
+  if (head.starts_with("\xff\xd8")) return tail.find("\xff\xd9") == std::string::npos;
+  if (head == "\x89PNG") return tail.find("IEND") == std::string::npos;
+  return false;
+}
+
 Image<std::uint16_t> decode_picture(const fs::path& path, Orientation orientation,
                                     PictureSpec& spec, double limit) {
   try {

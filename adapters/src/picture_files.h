@@ -46,6 +46,10 @@ std::vector<std::filesystem::path> pictures_of(const std::filesystem::path& fold
 PictureSpec read_picture_spec(const std::filesystem::path& path, Orientation orientation,
                               double limit);
 
+/// Does the end that its format has lack at the end of the file (JPEG and PNG)? Decoding tells for
+/// sure.
+bool may_be_cut_short(const std::filesystem::path& path);
+
 /// Decodes a picture as RGB, grey repeated, alpha dropped. spec: becomes what its header says.
 /// Throws Error(kBadInput) naming the file when it is damaged, cut short or takes more than `limit`
 /// bytes.

@@ -20,7 +20,7 @@ bool is_in(const fs::path& folder, const std::string& name) {
 }  // namespace
 
 fs::path folder_of_pictures(const fs::path& model, const std::vector<fs::path>& folders,
-                            const std::vector<std::string>& names) {
+                            const std::vector<std::string>& names, std::size_t least) {
   GIGARAY_CHECK(!folders.empty() && !names.empty());
   fs::path best = folders.front();
   std::size_t most = 0;
@@ -32,7 +32,7 @@ fs::path folder_of_pictures(const fs::path& model, const std::vector<fs::path>& 
       best = folder;
     }
   }
-  if (most == names.size()) return best;
+  if (most == names.size() || (most > 0 && most >= least)) return best;
   const std::string all = std::to_string(names.size());
   if (most == 0)
     throw Error(ErrorCode::kBadInput, model.string() + ": none of the " + all +

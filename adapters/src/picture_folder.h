@@ -10,9 +10,9 @@ namespace gigaray {
 
 /// The folder that the names of pictures are relative to: of `folders` the one that holds most.
 /// model: the file or folder that names the pictures, for messages. Throws Error(kBadInput) when
-/// any is missing everywhere, naming the first and how many.
+/// fewer than `least` of them are there, naming the first that is missing and how many.
 std::filesystem::path folder_of_pictures(const std::filesystem::path& model,
                                          const std::vector<std::filesystem::path>& folders,
-                                         const std::vector<std::string>& names);
+                                         const std::vector<std::string>& names, std::size_t least);
 
 }  // namespace gigaray

@@ -5,11 +5,14 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
+#include <limits>
 #include <memory>
 #include <mutex>
 #include <set>
+#include <system_error>
 
 #include "gigaray/adapters/input_file.h"
+#include "picture_alpha.h"
 #include "picture_files.h"
 #include "undistortion.h"
 
@@ -27,6 +30,7 @@ struct Source {
   fs::path file, mask;
   int width = 0, height = 0;
   std::shared_ptr<const Undistortion> undistortion;  // empty: a pinhole already
+  bool has_alpha = false;
 };
 
 class PosedPictures : public PixelSource {
@@ -62,10 +66,14 @@ class PosedPictures : public PixelSource {
  private:
   int most() const { return (1 << bit_depth_) - 1; }
 
-  /// 1 where the user's mask is not black, everywhere when there is none. Empty without masks.
+  /// 1 where the picture is opaque and the user's mask, if there is one, is not black. Empty
+  /// without masks.
   Mask mask_of(const Source& source) const {
     if (!has_mask_) return {};
-    Mask seen(source.width, source.height, 1, 1);
+    Mask seen = source.has_alpha ? read_alpha(source.file, limit_)
+                                 : Mask(source.width, source.height, 1, 1);
+    if (seen.width() != source.width || seen.height() != source.height)
+      bad(source.file, "has another size than when it was opened");
     if (source.mask.empty()) return seen;
     PictureSpec spec;
     const Image<std::uint16_t> mask =
@@ -74,7 +82,7 @@ class PosedPictures : public PixelSource {
       bad(source.mask, "has another size than when it was opened");
     for (int v = 0; v < seen.height(); ++v)
       for (int u = 0; u < seen.width(); ++u)
-        seen(u, v) = mask(u, v, 0) != 0 || mask(u, v, 1) != 0 || mask(u, v, 2) != 0;
+        seen(u, v) &= mask(u, v, 0) != 0 || mask(u, v, 1) != 0 || mask(u, v, 2) != 0;
     return seen;
   }
 
@@ -179,11 +187,70 @@ Camera camera_of(const PosedPicture& picture, const Source& source) {
   return camera;
 }
 
+/// "2 of 6 pictures are left out: b.png (is missing), d.png (…)"
+std::string left_out_text(const std::vector<PosedPicture>& faulty, std::size_t of) {
+  constexpr std::size_t kMostNamed = 5;
+  std::string text = std::to_string(faulty.size()) + " of " + std::to_string(of) +
+                     (faulty.size() == 1 ? " pictures is left out: " : " pictures are left out: ");
+  for (std::size_t i = 0; i < std::min(faulty.size(), kMostNamed); ++i) {
+    const std::string path = faulty[i].file.string() + ": ";
+    const std::string& fault = faulty[i].fault;
+    text += (i > 0 ? ", " : "") + faulty[i].name + " (" +
+            (fault.starts_with(path) ? fault.substr(path.size()) : fault) + ")";
+  }
+  if (faulty.size() > kMostNamed)
+    text += " and " + std::to_string(faulty.size() - kMostNamed) + " more";
+  return text;
+}
+
+/// Takes those that can't be used out of `pictures`, with a note.
+void leave_out_faulty(std::vector<PosedPicture>& pictures, bool strict, double limit,
+                      std::vector<std::string>& notes) {
+  for (PosedPicture& picture : pictures)
+    if (picture.fault.empty()) picture.fault = fault_of_picture(picture.file, limit);
+  const auto usable = std::stable_partition(
+      pictures.begin(), pictures.end(), [](const auto& picture) { return picture.fault.empty(); });
+  if (usable == pictures.end()) return;
+  const std::vector<PosedPicture> faulty(usable, pictures.end());
+  const std::size_t all = pictures.size();
+  pictures.erase(usable, pictures.end());
+  if (strict) throw Error(ErrorCode::kBadInput, faulty.front().fault);
+  if (pictures.size() < kLeastPictures)
+    throw Error(ErrorCode::kBadInput, faulty.front().fault + "; of " + std::to_string(all) +
+                                          " pictures " + (pictures.empty() ? "none" : "only one") +
+                                          " can be used, depth needs two");
+  notes.push_back(left_out_text(faulty, all));
+}
+
 }  // namespace
 
+std::string fault_of_picture(const fs::path& file, double limit) {
+  std::error_code ignored;
+  if (!fs::exists(file, ignored)) return file.string() + ": is missing";
+  try {
+    read_picture_spec(file, Orientation::kIgnored, limit);
+  } catch (const Error& problem) {
+    // What is too large for the limit alone is no fault of the picture.
+    try {
+      read_picture_spec(file, Orientation::kIgnored, std::numeric_limits<double>::infinity());
+    } catch (const Error&) {
+      return problem.what();
+    }
+    throw;
+  }
+  if (!may_be_cut_short(file)) return {};
+  try {
+    PictureSpec spec;
+    decode_picture(file, Orientation::kIgnored, spec, limit);
+  } catch (const Error& problem) {
+    return problem.what();
+  }
+  return {};
+}
+
 LightField posed_light_field(std::vector<PosedPicture> pictures, const std::string& format,
-                             double memory_bytes) {
-  if (pictures.size() < 2)
+                             double memory_bytes, bool strict) {
+  if (pictures.size() < kLeastPictures)
     throw Error(ErrorCode::kBadInput,
                 "a light field needs two pictures with cameras or more, there is " +
                     std::string(pictures.empty() ? "none" : "only one"));
@@ -192,16 +259,19 @@ LightField posed_light_field(std::vector<PosedPicture> pictures, const std::stri
   light_field.format = format;
 
   const double limit = opening_limit(memory_bytes);
+  leave_out_faulty(pictures, strict, limit, light_field.notes);
   std::vector<Source> sources;
   std::vector<PictureSpec> specs;
   Undistortions undistortions;
-  int num_scaled = 0, num_undistorted = 0;
+  int num_scaled = 0, num_undistorted = 0, num_transparent = 0;
   bool masked = false, turned = false;
   for (const PosedPicture& picture : pictures) {
     check(picture.lens, picture.file.string());
     specs.push_back(read_picture_spec(picture.file, Orientation::kIgnored, limit));
-    const PictureSpec& spec = specs.back();
-    Source source{picture.file, picture.mask, spec.width, spec.height, nullptr};
+    PictureSpec& spec = specs.back();
+    Source source{picture.file, picture.mask, spec.width, spec.height, nullptr, spec.has_alpha};
+    num_transparent += spec.has_alpha;
+    spec.has_alpha = false;  // it is not ignored here
     if (!is_scaled(picture.lens, source))
       bad(picture.file, "has " + size_text(spec.width, spec.height) +
                             " pixels, its camera was made for " +
@@ -238,6 +308,9 @@ LightField posed_light_field(std::vector<PosedPicture> pictures, const std::stri
   if (num_undistorted > 0)
     notes.push_back(std::to_string(num_undistorted) + of_all + " are undistorted (" +
                     undistortions.models() + ")");
+  if (num_transparent > 0)
+    notes.push_back("the alpha channel of " + std::to_string(num_transparent) + of_all +
+                    " masks what is transparent");
   if (num_scaled > 0)
     notes.push_back(std::to_string(num_scaled) + of_all +
                     " have another size than their cameras state; the cameras are scaled");
@@ -249,7 +322,8 @@ LightField posed_light_field(std::vector<PosedPicture> pictures, const std::stri
     notes.push_back(
         "the orientation noted in the pictures is ignored, as cameras are found "
         "without it");
-  const bool has_mask = masked || !one_size || !undistortions.fill_the_pictures();
+  const bool has_mask =
+      masked || num_transparent > 0 || !one_size || !undistortions.fill_the_pictures();
   light_field.pixels = std::make_shared<PosedPictures>(
       std::move(sources), light_field.width, light_field.height, bit_depth, has_mask, limit);
   place_by_cameras(light_field);

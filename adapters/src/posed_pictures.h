@@ -22,13 +22,23 @@ struct PosedPicture {
   Eigen::Vector3d translation = Eigen::Vector3d::Zero();
   std::optional<InverseDepthRange> inverse_depth;
   std::filesystem::path mask;  ///< picture, black: leave out; empty: none
+  std::string fault;           ///< why it can't be used, one line; empty: it can
 };
+
+/// Fewest pictures of a capture that must be usable.
+inline constexpr std::size_t kLeastPictures = 2;
+
+/// Why a picture can't be used, one line that names it: it is missing, damaged or cut short. Empty:
+/// it can. Throws Error(kBadInput) when it takes more than `limit` bytes.
+std::string fault_of_picture(const std::filesystem::path& file, double limit);
 
 /// An unstructured light field of photographs: undistorted to pinhole cameras of the same focal
 /// length and principal point when read, brought to a common size with the rest masked, placed by
-/// place_by_cameras. Reads headers only. Throws Error(kBadInput) naming the file, also when a view
-/// takes more than opening_limit(memory_bytes).
+/// place_by_cameras. Reads headers only, and a picture that may be cut short. Those that can't be
+/// used are left out with a note. Throws Error(kBadInput) naming the file, also when a view takes
+/// more than opening_limit(memory_bytes), when fewer than kLeastPictures can be used, and for any
+/// that can't when `strict`.
 LightField posed_light_field(std::vector<PosedPicture> pictures, const std::string& format,
-                             double memory_bytes = 0);
+                             double memory_bytes = 0, bool strict = false);
 
 }  // namespace gigaray

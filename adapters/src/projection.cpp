@@ -10,11 +10,12 @@
 namespace gigaray {
 
 std::vector<double> finite_numbers(const std::vector<std::string>& words, std::size_t first,
-                                   const std::string& where) {
+                                   const std::string& where, PoseAt pose) {
   std::vector<double> numbers;
   for (std::size_t i = first; i < words.size(); ++i) {
     const auto value = parse_number(words[i]);
-    if (!value || !std::isfinite(*value))
+    const bool is_pose = numbers.size() >= pose.begin && numbers.size() < pose.end;
+    if (!value || !(is_pose || std::isfinite(*value)))
       throw Error(ErrorCode::kBadInput,
                   where + ": " + in_quotes(words[i]) + " is no finite number");
     numbers.push_back(*value);

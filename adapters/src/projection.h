@@ -9,9 +9,15 @@
 
 namespace gigaray {
 
-/// Words from the first-th on as numbers. Throws Error(kBadInput) for one that is not finite.
+/// Which of some numbers are a pose, which set_pose looks at.
+struct PoseAt {
+  std::size_t begin = 0, end = 0;
+};
+
+/// Words from the first-th on as numbers. Throws Error(kBadInput) for one that is not finite, but
+/// for those of a pose.
 std::vector<double> finite_numbers(const std::vector<std::string>& words, std::size_t first,
-                                   const std::string& where);
+                                   const std::string& where, PoseAt pose = {});
 
 /// Sets the lens, but for its size, from K: 9 numbers by rows, pixel centres at integers. Throws
 /// Error(kBadInput) when it is no matrix of a camera without skew.

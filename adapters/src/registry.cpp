@@ -18,6 +18,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char* kHciScene = "HCI scene";
+
 std::vector<std::unique_ptr<const Reader>> all_readers() {
   std::vector<std::unique_ptr<const Reader>> all;
   all.push_back(gigaray_json_reader());
@@ -29,8 +31,10 @@ std::vector<std::unique_ptr<const Reader>> all_readers() {
   all.push_back(colmap_reader());
   all.push_back(transforms_json_reader());
   all.push_back(llff_reader());
+  all.push_back(mvsnet_reader());
   all.push_back(middlebury_par_reader());
   all.push_back(middlebury_stereo_reader());
+  all.push_back(calibrated_pair_reader());
   all.push_back(strecha_reader());
   all.push_back(named_grid_reader());
   all.push_back(image_sequence_reader());
@@ -62,6 +66,11 @@ const Reader& reader_for(const fs::path& input, const OpenOptions& options) {
     }
     if (!result.why_not.empty()) why_not = result.why_not;
   }
+  if (best && options.grid.rows > 0 && best->name() != kHciScene && best != readers().back().get())
+    throw Error(ErrorCode::kInvalidArgument,
+                "--grid: goes with pictures that have one number in their names, not with the "
+                "format " +
+                    best->name());
   if (best) return *best;
   throw Error(ErrorCode::kBadInput, input.string() + ": " + why_not);
 }
@@ -109,6 +118,8 @@ LightField open_light_field(const fs::path& input, const OpenOptions& options) {
   } catch (const Error& problem) {
     throw Error(problem.code(), input.string() + ": " + problem.what());
   }
+  if (const std::string note = unused_cameras(input, light_field.format); !note.empty())
+    light_field.notes.push_back(note);
   return light_field;
 }
 

@@ -70,6 +70,8 @@ LightField shrunk(LightField light_field, int max_size) {
     camera.height = std::clamp(int(std::floor(camera.height * by_v)), 1, small.height);
   }
   if (small.rig.focal_px) *small.rig.focal_px *= by_u;
+  if (auto& point = small.rig.principal_point)
+    point = Eigen::Vector2d((point->x() + 0.5) * by_u - 0.5, (point->y() + 0.5) * by_v - 0.5);
   if (small.declared_range)
     small.declared_range =
         DisparityRange{by_u * small.declared_range->min, by_u * small.declared_range->max};

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Gigaray authors
 // (New) Stanford Light Field Archive, http://lightfield.stanford.edu: out_ROW_COL_Y_X with the
-// measured position of the camera; other words before ROW and after X are allowed. That X grows to
-// the right and Y downwards as the pictures show it is found on Lego Knights and an assumption for
-// others: their axes differ.
+// measured position of the camera; other words before ROW and after X are allowed, and more than
+// one underscore between. That X grows to the right and Y downwards as the pictures show it is
+// found on Lego Knights and an assumption for others: their axes differ.
 #include <cmath>
 #include <regex>
 #include <set>
@@ -26,13 +26,20 @@ struct Camera {
   fs::path path;
 };
 
+/// Four whole numbers may be anything, a date and a time; those of the archive begin with "out".
+bool is_position(const std::string& stem, const std::string& y, const std::string& x) {
+  const bool is_measured = (y + x).find_first_of(".-") != std::string::npos;
+  return is_measured || lower(stem).starts_with("out_");
+}
+
 std::vector<Camera> cameras_of(const fs::path& folder) {
-  static const std::regex kName(R"(.*?_(\d{1,4})_(\d{1,4})_(-?\d+\.\d+)_(-?\d+\.\d+)(_.*)?)");
+  static const std::regex kName(
+      R"(.*?_+(\d{1,4})_+(\d{1,4})_+(-?\d+(?:\.\d+)?)_+(-?\d+(?:\.\d+)?)(_.*)?)");
   std::vector<Camera> cameras;
   for (const fs::path& path : pictures_of(folder)) {
     std::smatch match;
     const std::string stem = path.stem().string();
-    if (std::regex_match(stem, match, kName))
+    if (std::regex_match(stem, match, kName) && is_position(stem, match[3], match[4]))
       cameras.push_back({std::stoi(match[1]), std::stoi(match[2]), *parse_number(match[4].str()),
                          *parse_number(match[3].str()), path});
   }

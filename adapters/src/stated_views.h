@@ -22,9 +22,15 @@ struct StatedView {
   Lens lens;            ///< width 0: for the size of its picture
   /// Instead of the lens: horizontal field of view of a pinhole, radians.
   std::optional<double> field_of_view;
+  /// May the lens be that of a copy of the picture of half, a quarter … or twice its size? Its
+  /// principal point, which is near the middle, tells. For a lens of width 0.
+  bool may_be_of_a_copy = false;
+  /// Is the principal point in the middle of the picture? For a lens of width 0.
+  bool is_centred = false;
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
   Eigen::Vector3d translation = Eigen::Vector3d::Zero();
   std::optional<InverseDepthRange> inverse_depth;
+  std::string fault;  ///< why it can't be used, one line with the file; empty: it can
 };
 
 /// Parsers of one file each: text or bytes, and its name for messages. Throw Error(kBadInput)
@@ -33,10 +39,11 @@ std::vector<StatedView> parse_transforms_json(std::string_view text, const std::
 std::vector<StatedView> parse_poses_bounds(std::string_view bytes, const std::string& where);
 std::vector<StatedView> parse_middlebury_par(std::string_view text, const std::string& where);
 StatedView parse_strecha_camera(std::string_view text, const std::string& where);
+StatedView parse_mvsnet_camera(std::string_view text, const std::string& where);
 
 /// Sets the pose of a camera that stands at `position`; axes: its right, down and ahead as columns,
-/// in the scene. Rounding in the file is made good; throws Error(kBadInput) when they are no
-/// rotation.
+/// in the scene. Rounding in the file is made good; numbers that are not finite are a fault of the
+/// view; throws Error(kBadInput) when the axes are no rotation.
 void set_pose(StatedView& view, const Eigen::Matrix3d& axes, const Eigen::Vector3d& position,
               const std::string& where);
 

@@ -54,12 +54,13 @@ class StrechaReader : public Reader {
 }  // namespace
 
 StatedView parse_strecha_camera(std::string_view text, const std::string& where) {
-  constexpr std::size_t kWithoutDistortion = 23, kWithDistortion = 26;
+  constexpr std::size_t kWithoutDistortion = 23, kWithDistortion = 26, kPoseAndSize = 14;
   const std::vector<std::string> words = split_words(text);
   if (words.size() != kWithoutDistortion && words.size() != kWithDistortion)
     throw Error(ErrorCode::kBadInput, where + ": holds " + std::to_string(words.size()) +
                                           " numbers; K, distortion, R, position and size are 26");
-  const std::vector<double> numbers = finite_numbers(words, 0, where);
+  const std::vector<double> numbers =
+      finite_numbers(words, 0, where, {words.size() - kPoseAndSize, words.size() - 2});
   StatedView view;
   const double* next = numbers.data();
   const double width = numbers[numbers.size() - 2], height = numbers[numbers.size() - 1];

@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The Gigaray authors
 #include "view_grid.h"
 
+#include <algorithm>
 #include <numeric>
 #include <string>
 #include <utility>
@@ -19,6 +20,13 @@ std::string two_digits(int number) {
 
 double mean_value(const Image<std::uint16_t>& picture) {
   return std::accumulate(picture.begin(), picture.end(), 0.0) / double(picture.size());
+}
+
+bool is_dark(double mean, double middle) { return mean < kBrightEnough * middle; }
+
+void note_dark(LightField& light_field, std::size_t dark, std::size_t of) {
+  light_field.notes.push_back(std::to_string(dark) + " of " + std::to_string(of) +
+                              " views are left out: they are darker than 70 % of the middle one");
 }
 
 }  // namespace
@@ -52,16 +60,35 @@ void attach_bright_views(LightField& light_field, std::vector<Image<std::uint16_
   std::vector<View> bright;
   std::vector<Image<std::uint16_t>> kept;
   for (std::size_t i = 0; i < pictures.size(); ++i) {
-    const bool dark = mean_value(pictures[i]) < kBrightEnough * middle;
+    const bool dark = is_dark(mean_value(pictures[i]), middle);
     (dark ? light_field.left_out : bright).push_back(light_field.views[i]);
     if (!dark) kept.push_back(std::move(pictures[i]));
   }
   light_field.views = std::move(bright);
   if (!light_field.left_out.empty())
-    light_field.notes.push_back(std::to_string(light_field.left_out.size()) + " of " +
-                                std::to_string(pictures.size()) +
-                                " views are left out: they are darker than 70 % of the middle one");
+    note_dark(light_field, light_field.left_out.size(), pictures.size());
   light_field.pixels = pixels_in_memory(std::move(kept), bit_depth);
+}
+
+void leave_out_dark_views(LightField& light_field) {
+  if (light_field.kind != LightFieldKind::k4D) return;
+  const auto mean = [&](int view) { return mean_value(read_view(light_field, view)); };
+  const double middle = mean(centre_view(light_field));
+  const std::vector<View>& views = light_field.views;
+  bool is_vignetted = false;
+  for (const auto& [s, t] : {std::pair(-1, -1), {-1, 1}, {1, -1}, {1, 1}}) {
+    const auto corner = std::ranges::max_element(
+        views, {}, [&](const View& view) { return s * view.s + t * view.t; });
+    is_vignetted = is_vignetted || is_dark(mean(int(corner - views.begin())), middle);
+  }
+  if (!is_vignetted) return;
+  std::vector<int> dark;
+  for (int view = 0; view < light_field.num_views(); ++view)
+    if (is_dark(mean(view), middle)) dark.push_back(view);
+  const std::size_t all = views.size();
+  if (dark.size() + 2 > all) return;
+  note_dark(light_field, dark.size(), all);
+  light_field = without(std::move(light_field), dark);
 }
 
 }  // namespace gigaray

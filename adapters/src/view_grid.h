@@ -24,4 +24,8 @@ void assume_directions(LightField& light_field, const Directions& directions);
 void attach_bright_views(LightField& light_field, std::vector<Image<std::uint16_t>> pictures,
                          int bit_depth);
 
+/// The same of pictures in files, in a plane. Vignetting reaches the corners of a grid first: where
+/// they are bright no other picture is decoded.
+void leave_out_dark_views(LightField& light_field);
+
 }  // namespace gigaray

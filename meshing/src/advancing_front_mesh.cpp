@@ -57,6 +57,7 @@ SurfaceMesh advancing_front_mesh(const PointCloud& cloud, const AdvancingFrontOp
   for (const Eigen::Vector3f& p : cloud.positions) points.emplace_back(p.x(), p.y(), p.z());
 
   SurfaceMesh mesh;
+  mesh.origin = cloud.origin;
   mesh.positions = cloud.positions;
   mesh.colours = cloud.colours;
   std::vector<std::array<std::size_t, 3>> faces;

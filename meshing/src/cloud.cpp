@@ -127,13 +127,15 @@ void thin(TileStore& store, const CloudOptions& options, double& voxel, const Ru
 
 }  // namespace
 
-CloudReport build_cloud(const DepthViews& views, const CloudOptions& options,
+CloudReport build_cloud(const DepthViews& in_scene, const CloudOptions& options,
                         const std::function<void(const PointCloud&)>& take,
                         const RunControl& control) {
   check(options);
-  const Survey seen = survey(views, control);
+  const Survey seen = survey(in_scene, control);
   const auto tolerance = SurfaceTolerance::of(seen.range);
+  const auto [views, frame_origin] = nearby(in_scene, seen.spacing);
   CloudReport report;
+  report.origin = frame_origin;
   report.voxel = options.voxel > 0 ? options.voxel : seen.spacing;
   TileStore store = store_for(report.voxel, options.memory);
   collect(views, options, tolerance, store, report, control);
@@ -147,11 +149,12 @@ CloudReport build_cloud(const DepthViews& views, const CloudOptions& options,
     if (options.outlier_deviations > 0)
       in_company = points_in_company(points, options.neighbours, options.outlier_deviations);
     std::uint64_t own = 0;
-    const PointCloud cloud = chosen(points, store.origin(tile), [&](std::size_t k) {
+    PointCloud cloud = chosen(points, store.origin(tile), [&](std::size_t k) {
       if (!store.is_own(tile, points.positions[k])) return false;
       ++own;
       return in_company[k] != 0;
     });
+    cloud.origin = report.origin;
     report.merged += own;
     report.outliers += own - cloud.size();
     report.points += cloud.size();

@@ -18,6 +18,33 @@ constexpr std::size_t kSamples = 20000;
 
 }  // namespace
 
+NearbyViews nearby(const DepthViews& views, double spacing) {
+  constexpr double kFarInSpacings = 32768;  // 2^23 steps of a float there, by 256
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  double farthest = 0;
+  for (const Camera& camera : views.cameras) {
+    sum += camera.position();
+    farthest = std::max(farthest, camera.position().cwiseAbs().maxCoeff());
+  }
+  if (views.cameras.empty() || !(farthest > kFarInSpacings * spacing)) return {views};
+  const double step = std::pow(10, std::floor(std::log10(kFarInSpacings / 4 * spacing)));
+  const Eigen::Vector3d middle = sum / double(views.size());
+  NearbyViews result;
+  // + 0.0: never -0.
+  result.origin = ((middle / step).array().round() * step + 0.0).matrix();
+  const auto moved = [origin = result.origin](Camera camera) {
+    camera.translation += camera.rotation * origin;
+    return camera;
+  };
+  for (const Camera& camera : views.cameras) result.views.cameras.push_back(moved(camera));
+  result.views.read = [read = views.read, moved](int view) {
+    DepthView found = read(view);
+    found.camera = moved(found.camera);
+    return found;
+  };
+  return result;
+}
+
 SurfaceTolerance SurfaceTolerance::of(InverseDepthRange range) {
   const double span = range.max - range.min;
   return {float(0.01 * span), float(0.01 * span)};

@@ -153,10 +153,13 @@ std::vector<int> farthest_first(const std::vector<Camera>& cameras) {
   return order;
 }
 
-SurfaceMesh grid_mesh(const DepthViews& views, const PointOptions& options, PointCounts* counts,
+SurfaceMesh grid_mesh(const DepthViews& in_scene, const PointOptions& options, PointCounts* counts,
                       const RunControl& control) {
-  const auto tolerance = SurfaceTolerance::of(survey(views, control).range);
+  const Survey seen = survey(in_scene, control);
+  const auto tolerance = SurfaceTolerance::of(seen.range);
+  const auto [views, origin] = nearby(in_scene, seen.spacing);
   SurfaceMesh mesh;
+  mesh.origin = origin;
   std::vector<Part> parts;
   for (const int view : farthest_first(views.cameras)) {
     control.throw_if_cancelled();

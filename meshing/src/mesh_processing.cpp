@@ -98,7 +98,9 @@ SurfaceMesh cleaned(const SurfaceMesh& mesh, const MeshCleaning& cleaning, MeshC
   if (cleaning.hole_edges > 0) report.holes_filled = fill_holes(result, cleaning.hole_edges);
   if (cleaning.most_faces > 0) simplify(result, cleaning.most_faces);
   if (done) *done = report;
-  return surface_mesh_of(result);
+  SurfaceMesh surface = surface_mesh_of(result);
+  surface.origin = mesh.origin;
+  return surface;
 }
 
 }  // namespace gigaray

@@ -204,6 +204,7 @@ SurfaceMesh poisson_mesh(const PointCloud& cloud, const PoissonOptions& options,
     throw Error(ErrorCode::kBadInput, "the points and their normals give no surface");
 
   mesh = surface_mesh_of(cgal_mesh_of(mesh));
+  mesh.origin = cloud.origin;
   for (std::size_t i = 0; i < mesh.positions.size(); ++i)
     mesh.colours[i] = colour_at(mesh.positions[i], cloud, neighbours);
   if (options.trim > 0) trim(mesh, spacing, options.trim);

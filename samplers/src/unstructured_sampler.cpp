@@ -24,6 +24,10 @@ Eigen::Matrix3d intrinsics(const Camera& camera) {
   return k;
 }
 
+/// px that things in the middle of the volume are seen from where they would be if they were
+/// infinitely far; pictures from one place, as those of exposure brackets, have less.
+constexpr double kLeastParallax = 0.1;
+
 /// How well a camera goes with the reference.
 struct Fit {
   double overlap = 0;  ///< share of the reference's volume that it sees
@@ -75,6 +79,7 @@ std::vector<int> choose_partners(const std::vector<Camera>& cameras, int ref, in
         fit.angle > UnstructuredSampler::kWidestAngle ||
         fit.scale > UnstructuredSampler::kMostScale)
       continue;
+    if (fit.angle * std::numbers::pi / 180 * cameras[ref].focal_u < kLeastParallax) continue;
     // Much in common under small angles, but not from the same place.
     constexpr double kBestAngle = 8;
     const double angle = std::min(fit.angle / kBestAngle, kBestAngle / std::max(fit.angle, 1e-9));

@@ -218,6 +218,61 @@ TEST_F(ColmapModelFiles, ContradictionsAreNamed) {
   refused(model, "0×17");
 }
 
+TEST_F(ColmapModelFiles, CameraModelsOfColmap4HaveTheirNumbers) {
+  struct Case {
+    int number;
+    const char* name;
+    std::vector<double> params;
+  };
+  for (const Case& one : std::vector<Case>{{12, "SIMPLE_DIVISION", {30, 11.5, 8.5, -0.01}},
+                                           {13, "DIVISION", {30, 31, 11.5, 8.5, -0.01}},
+                                           {14, "SIMPLE_FISHEYE", {30, 11.5, 8.5}},
+                                           {15, "FISHEYE", {30, 31, 11.5, 8.5}},
+                                           {16, "EUCM", {30, 31, 11.5, 8.5, 0.1, 1}}}) {
+    ColmapModel model = colmap_scene();
+    model.cameras[7] = {one.name, 23, 17, one.params};
+    write_colmap_model(folder / one.name, model, ColmapFormat::kBinary);
+    EXPECT_EQ(read(std::string(one.name) + "/cameras.bin").at(8 + 4), char(one.number));
+    expect_same(read_colmap_model(folder / one.name), model);
+    std::filesystem::remove_all(folder / one.name);
+    write_colmap_model(folder / one.name, model, ColmapFormat::kText);
+    expect_same(read_colmap_model(folder / one.name), model);
+  }
+}
+
+TEST_F(ColmapModelFiles, PanoramasAreRefusedByName) {
+  write_colmap_model(folder, colmap_scene(), ColmapFormat::kBinary);
+  overwrite("cameras.bin", 8 + 4, std::string("\x11\0\0\0", 4));
+  expect_bad_model("EQUIRECTANGULAR");
+  std::filesystem::remove(folder / "cameras.bin");
+  expect_bad_text("cameras.txt", "7 EQUIRECTANGULAR 40 20 40 20", "EQUIRECTANGULAR");
+  expect_bad_text("cameras.txt", "7 SPHERICAL 40 20 40 20", "panorama");
+}
+
+TEST_F(ColmapModelFiles, TextOfOtherSystemsIsRead) {
+  write_colmap_model(folder, colmap_scene(), ColmapFormat::kText);
+  const ColmapModel model = read_colmap_model(folder);
+  const auto rewrite = [&](auto change) {
+    for (const char* name : {"cameras.txt", "images.txt", "points3D.txt"})
+      write(name, change(read(name)));
+  };
+  const auto with_returns = [](std::string text) {
+    for (std::size_t at = 0; (at = text.find('\n', at)) != std::string::npos; at += 2)
+      text.insert(at, "\r");
+    return text;
+  };
+  rewrite([&](const std::string& text) { return "\xef\xbb\xbf" + with_returns(text); });
+  expect_same(read_colmap_model(folder), model);
+  rewrite([](const std::string& text) {
+    std::string wide = "\xff\xfe";
+    for (const char c : text.substr(3)) wide += std::string{c, '\0'};
+    return wide;
+  });
+  expect_same(read_colmap_model(folder), model);
+  write("cameras.txt", "7 pinhole 23 17 30 31 11.5 8.5");
+  expect_same(read_colmap_model(folder), model);
+}
+
 TEST_F(ColmapModelFiles, UnknownCameraModelsAreNamed) {
   write_colmap_model(folder, colmap_scene(), ColmapFormat::kBinary);
   overwrite("cameras.bin", 8 + 4, std::string("\x2a\0\0\0", 4));

@@ -128,6 +128,36 @@ TEST_F(Stanford, PositionsComeFromTheNames) {
   EXPECT_DOUBLE_EQ(light_field.views.front().t, 1) << "Y is downwards";
 }
 
+TEST_F(Stanford, SpellingsOfTheArchiveDiffer) {
+  const auto expect_read = [&](const char* pattern) {
+    SCOPED_TRACE(pattern);
+    std::filesystem::remove_all(folder);
+    std::filesystem::create_directory(folder);
+    for (int row = 0; row < 2; ++row)
+      for (int column = 0; column < 3; ++column) {
+        char name[64];
+        std::snprintf(name, sizeof name, pattern, row, column, -700 + 10 * row, 500 + 10 * column);
+        save(name);
+      }
+    const LightField light_field = open_light_field(folder);
+    EXPECT_EQ(light_field.format, "Stanford archive");
+    ASSERT_EQ(light_field.num_views(), 6);
+    EXPECT_EQ(light_field.views[5].s, 1);
+    EXPECT_EQ(light_field.views[5].t, 0.5);
+    EXPECT_NEAR(light_field.rig.baseline.value(), 10, 1e-9);
+  };
+  expect_read("out_%02d_%02d__%d.25_%d.75_.png");
+  expect_read("out_%02d_%02d_%d.25__%d.75.png");
+  expect_read("out_%02d_%02d_%d_%d_.png");
+  expect_read("out__%02d_%02d__%d__%d.png");
+  expect_read("amethyst_%02d_%02d_%d_%d.5.png");
+}
+
+TEST_F(Stanford, FourWholeNumbersAreNoPositions) {
+  for (const char* name : {"IMG_2024_01_05_1201.png", "IMG_2024_01_05_1202.png"}) save(name);
+  EXPECT_EQ(open_light_field(folder).format, "image sequence");
+}
+
 TEST_F(Stanford, WobbleOfOneRowIsIgnoredAndNoted) {
   save("out_08_00_-450.5_1100.0.png");
   save("out_08_01_-449.5_1090.0.png");

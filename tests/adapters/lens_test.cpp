@@ -39,14 +39,21 @@ std::vector<Lens> lenses() {
       lens("THIN_PRISM_FISHEYE",
            {310, 305, 322, 238, 0.04, -0.01, 0.002, -0.001, 0.006, -0.002, 0.003, -0.002}),
       lens("RAD_TAN_THIN_PRISM_FISHEYE", {310, 305, 322, 238, 0.04, -0.02, 0.01, -0.004, 0.001,
-                                          -0.0002, 0.002, -0.001, 0.003, -0.001, -0.002, 0.001})};
+                                          -0.0002, 0.002, -0.001, 0.003, -0.001, -0.002, 0.001}),
+      lens("SIMPLE_DIVISION", {500, 322, 238, -0.2}),
+      lens("DIVISION", {500, 510, 322, 238, 0.15}),
+      lens("SIMPLE_FISHEYE", {310, 322, 238}),
+      lens("FISHEYE", {310, 305, 322, 238}),
+      lens("EUCM", {310, 305, 322, 238, 0.6, 1.2})};
 }
 
 TEST(Lens, EveryModelOfColmapIsKnownByItsNumber) {
-  ASSERT_EQ(lens_models().size(), 12);
+  ASSERT_EQ(lens_models().size(), 17);
   EXPECT_EQ(lens_models()[4], "OPENCV");
   EXPECT_EQ(lens_models()[7], "FOV");
   EXPECT_EQ(lens_models()[11], "RAD_TAN_THIN_PRISM_FISHEYE");
+  EXPECT_EQ(lens_models()[13], "DIVISION");
+  EXPECT_EQ(lens_models()[16], "EUCM");
   for (std::size_t i = 0; i < lenses().size(); ++i) {
     EXPECT_EQ(lenses()[i].model, lens_models()[i]);
     EXPECT_EQ(int(lenses()[i].params.size()), num_lens_params(lens_models()[i]));
@@ -128,6 +135,41 @@ TEST(Lens, AriaDistortsWhatIsRadiallyDistortedAlready) {
   const Vector2d seen = distort(one, {std::tan(0.5), 0}).value();
   EXPECT_NEAR(seen.x(), 321.5 + 200 * (bent + 0.01 * 3 * bent * bent), kPixels);
   EXPECT_NEAR(seen.y(), 237.5 + 200 * 0.02 * std::pow(bent, 4), kPixels);
+}
+
+TEST(Lens, DivisionDividesWhatIsSeenByOnePlusKTimesRSquared) {
+  for (const double k : {-0.3, 0.3}) {
+    const Vector2d seen(0.3, 0.4);  // r² = 0.25
+    for (const Lens& one :
+         {lens("SIMPLE_DIVISION", {500, 322, 238, k}), lens("DIVISION", {500, 500, 322, 238, k})}) {
+      const Vector2d direction = undistort(one, {321.5 + 150, 237.5 + 200}).value();
+      EXPECT_LT((direction - seen / (1 + 0.25 * k)).norm(), kPixels);
+    }
+  }
+  EXPECT_TRUE(is_pinhole(lens("DIVISION", {500, 510, 322, 238, 0})));
+  // Nothing is ahead where the divisor is 0, and the picture folds back at the radius 1 / √k.
+  EXPECT_FALSE(undistort(lens("SIMPLE_DIVISION", {100, 322, 238, -0.25}), {321.5 + 201, 237.5}));
+  EXPECT_FALSE(undistort(lens("SIMPLE_DIVISION", {100, 322, 238, 0.25}), {321.5 + 201, 237.5}));
+  EXPECT_FALSE(distort(lens("SIMPLE_DIVISION", {100, 322, 238, 0.25}), {1.01, 0}));
+}
+
+TEST(Lens, FisheyeWithoutParametersIsTheAngle) {
+  for (const Lens& one :
+       {lens("SIMPLE_FISHEYE", {200, 322, 238}), lens("FISHEYE", {200, 210, 322, 238})})
+    EXPECT_NEAR(distort(one, {std::tan(1.2), 0}).value().x(), 321.5 + 200 * 1.2, kPixels);
+  EXPECT_FALSE(is_pinhole(lens("FISHEYE", {200, 210, 322, 238})));
+}
+
+TEST(Lens, EnhancedUnifiedModelBlendsTheDepthWithADistance) {
+  const double alpha = 0.6, beta = 1.2;
+  const Lens one = lens("EUCM", {200, 210, 322, 238, alpha, beta});
+  // The point (3, -4, 2): its distance is √(β (9 + 16) + 4).
+  const double depth = alpha * std::sqrt(beta * 25 + 4) + (1 - alpha) * 2;
+  const Vector2d seen = distort(one, {1.5, -2}).value();
+  EXPECT_LT((seen - Vector2d(321.5 + 200 * 3 / depth, 237.5 - 210 * 4 / depth)).norm(), kPixels);
+  EXPECT_TRUE(is_pinhole(lens("EUCM", {200, 210, 322, 238, 0, 1.2})));
+  EXPECT_NEAR(distort(lens("EUCM", {200, 210, 322, 238, 0, 1.2}), {0.5, 0}).value().x(), 421.5,
+              kPixels);
 }
 
 std::vector<cv::Point3d> directions() {
@@ -221,6 +263,10 @@ TEST(Lens, AbsurdOnesAreRefused) {
   };
   refused(lens("ORTHOGRAPHIC", {1}), "ORTHOGRAPHIC");
   refused(lens("", {}), "unknown");
+  refused(lens("ORTHOGRAPHIC", {1}), "image_undistorter");
+  refused(lens("EQUIRECTANGULAR", {640, 480}), "EQUIRECTANGULAR is that of a panorama");
+  refused(lens("EUCM", {500, 500, 320, 240, 1.5, 1}), "alpha");
+  refused(lens("EUCM", {500, 500, 320, 240, 0.5, 0}), "beta");
   refused(lens("PINHOLE", {500, 500, 320}), "4 parameters");
   refused(lens("PINHOLE", {500, std::nan(""), 320, 240}), "finite");
   refused(lens("PINHOLE", {-500, 500, 320, 240}), "focal length");

@@ -67,6 +67,71 @@ TEST_F(PlainPhotographs, UprightOnesAndOnesOnTheirSideAreNoRow) {
   EXPECT_NE(why_no_series(folder), "");
 }
 
+TEST_F(PlainPhotographs, EveryPictureTwiceOrTwoSeriesAreSaid) {
+  for (const std::string i : {"1", "2", "3"}) {
+    save("p" + i + ".png");
+    save("P" + i + ".jpg");
+  }
+  EXPECT_NE(why_twice(folder).find("P1.jpg and p1.png"), std::string::npos) << why_twice(folder);
+  for (const std::string i : {"1", "2", "3"})
+    std::filesystem::rename(folder / ("P" + i + ".jpg"), folder / ("q" + i + ".jpg"));
+  EXPECT_NE(why_twice(folder).find("more than one series"), std::string::npos);
+  for (const std::string i : {"1", "2", "3"}) std::filesystem::remove(folder / ("q" + i + ".jpg"));
+  EXPECT_EQ(why_twice(folder), "");
+}
+
+TEST_F(PlainPhotographs, NamesWithoutNumbersMayBeThereTwice) {
+  for (const std::string name : {"door", "wall", "tree"}) {
+    save(name + ".png");
+    save(name + ".jpg");
+  }
+  EXPECT_NE(why_twice(folder).find("twice"), std::string::npos);
+  // Photographs of several sources are no series.
+  std::filesystem::remove_all(folder);
+  for (const char* name : {"a1.png", "b2.png", "c3.png", "d.png", "c3.jpg"}) save(name);
+  EXPECT_EQ(why_twice(folder), "");
+}
+
+TEST_F(PlainPhotographs, FilesThatLookLikeCamerasAreNamed) {
+  const auto note = [&](const std::filesystem::path& input) {
+    for (const std::string& note : open_light_field(input).notes)
+      if (note.find("looks like cameras") != std::string::npos) return note;
+    return std::string();
+  };
+  for (const char* name : {"in/images/p1.png", "in/images/p2.png"}) save(name);
+  const std::filesystem::path images = folder / "in/images";
+  EXPECT_EQ(note(images), "");
+  for (const char* name :
+       {"transforms.json", "Transforms_val.json", "cameras.txt", "images.txt", "calib.txt",
+        "poses_bounds.npy", "x_par.txt", "p1.png.camera", "p1_cam.txt", "cameras_sphere.npz"})
+    for (const std::filesystem::path& place : {folder / "in", images}) {
+      std::ofstream(place / name) << "?";
+      // In the folder of the pictures some are taken for what they claim to be.
+      if (place != images || std::string(name).starts_with("c")) {
+        EXPECT_NE(note(images).find(name), std::string::npos) << place / name;
+      }
+      std::filesystem::remove(place / name);
+    }
+  write("in/notes.txt", "?");
+  EXPECT_EQ(note(images), "");
+  std::filesystem::create_directory(folder / "in/cams");
+  EXPECT_EQ(note(images), "") << "an empty folder";
+  write("in/cams/0000.txt", "?");
+  EXPECT_NE(note(images).find("cams"), std::string::npos);
+}
+
+TEST_F(PlainPhotographs, CamerasThatAreUsedAreNotNamed) {
+  const ColmapModel model = colmap_scene();
+  for (const auto& image : model.images) save("images/" + image.name);
+  write_colmap_model(folder / "sparse/0", model, ColmapFormat::kText);
+  EXPECT_TRUE(open_light_field(folder).notes.empty());
+  // A second statement of them is.
+  write("poses_bounds.npy", "?");
+  const auto notes = open_light_field(folder).notes;
+  ASSERT_EQ(notes.size(), 1U);
+  EXPECT_NE(notes[0].find("poses_bounds.npy"), std::string::npos);
+}
+
 TEST(Shrunk, CamerasAndDisparitiesFollow) {
   LightField row = planes_seen_from({{"a", -0.5, 0}, {"b", 0.5, 0}}, 96, 64);
   row.declared_range = DisparityRange{-1, 2};

@@ -181,6 +181,46 @@ TEST_F(PosedPictures, BlackOfAMaskIsLeftOut) {
   EXPECT_EQ(read_view(light_field, 0)(5, 3, 3), 255);
 }
 
+TEST_F(PosedPictures, TransparentPixelsAreMasked) {
+  for (const int type : {CV_8UC4, CV_16UC4}) {
+    const int most = type == CV_8UC4 ? 255 : 65535;
+    cv::Mat mat = picture(type);
+    for (int v = 0; v < kHeight; ++v)
+      for (int u = 0; u < kWidth; ++u) {
+        const int alpha = u < 4 ? 0 : u < 6 ? most / 3 : u < 8 ? 2 * most / 3 : most;
+        if (type == CV_8UC4)
+          mat.at<cv::Vec4b>(v, u)[3] = std::uint8_t(alpha);
+        else
+          mat.at<cv::Vec4w>(v, u)[3] = std::uint16_t(alpha);
+      }
+    const LightField light_field = two_views(pinhole, mat);
+    EXPECT_NE(light_field.notes.at(0).find("alpha channel of 2 of 2 pictures"), std::string::npos);
+    EXPECT_EQ(light_field.notes.size(), 1u);
+    const auto read = read_view(light_field, 1);
+    ASSERT_EQ(read.channels(), 4);
+    for (int v = 0; v < kHeight; ++v)
+      for (int u = 0; u < kWidth; ++u) EXPECT_EQ(read(u, v, 3), u < 6 ? 0 : most) << u;
+    // A mask leaves out more.
+    cv::Mat mask(kHeight, kWidth, CV_8UC1, cv::Scalar(255));
+    mask.col(20) = 0;
+    save("mask.png", mask);
+    PosedPicture masked = posed("a", pinhole);
+    masked.mask = folder / "mask.png";
+    const auto both = read_view(posed_light_field({masked, posed("b", pinhole, 1)}, "test"), 0);
+    EXPECT_EQ(both(5, 3, 3), 0);
+    EXPECT_EQ(both(20, 3, 3), 0);
+    EXPECT_EQ(both(19, 3, 3), most);
+  }
+}
+
+TEST_F(PosedPictures, WhatIsTransparentEverywhereIsNotMasked) {
+  cv::Mat mat = picture(CV_8UC4);
+  for (int v = 0; v < kHeight; ++v)
+    for (int u = 0; u < kWidth; ++u) mat.at<cv::Vec4b>(v, u)[3] = 0;
+  const auto read = read_view(two_views(pinhole, mat), 0);
+  for (int v = 0; v < kHeight; ++v) EXPECT_EQ(read(7, v, 3), 255);
+}
+
 TEST_F(PosedPictures, MaskIsUndistortedWithItsPicture) {
   save("a.png", seen_through(barrel));
   save("b.png", seen_through(barrel));

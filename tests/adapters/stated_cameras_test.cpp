@@ -239,6 +239,101 @@ TEST_F(StatedCameras, DamagedTransformsJsonIsOneLine) {
   expect_named([](json& j) { j["frames"][1]["transform_matrix"][0] = "x"; }, "4 × 4");
 }
 
+TEST_F(StatedCameras, TransformsJsonOfNerfsScenesIsReadUnderItsOtherNames) {
+  save_pictures("train/");
+  json root = transforms();
+  for (const char* key : {"fl_x", "fl_y", "cx", "cy", "w", "h", "camera_model"}) root.erase(key);
+  root["camera_angle_x"] = 2 * std::atan(11.5 / 30);
+  for (std::size_t i = 0; i < model.images.size(); ++i)
+    root["frames"][i]["file_path"] = "./train/v" + std::to_string(i);
+  write("transforms_train.json", root.dump());
+  write("transforms_test.json", root.dump());
+  write("transforms_val.json", root.dump());
+  const LightField light_field = open_light_field(folder);
+  expect_points_in_their_pixels(light_field);
+  EXPECT_EQ(light_field.notes.at(0),
+            "the cameras are those of transforms_train.json; name a file as INPUT for those of "
+            "transforms_test.json, transforms_val.json");
+  expect_points_in_their_pixels(open_light_field(folder / "transforms_val.json"));
+  // Any name will do for a file that is named.
+  write("my cameras.JSON", root.dump());
+  expect_points_in_their_pixels(open_light_field(folder / "my cameras.JSON"));
+  write("transforms.json", transforms().dump());
+  expect_bad(".", "none of the 3 pictures");
+}
+
+TEST_F(StatedCameras, NamesOfPicturesAreThoseOfOtherSystems) {
+  save_pictures("images/");
+  const auto expect_read = [&](auto name) {
+    json root = transforms();
+    for (std::size_t i = 0; i < model.images.size(); ++i)
+      root["frames"][i]["file_path"] = name("v" + std::to_string(i));
+    SCOPED_TRACE(std::string(root["frames"][1]["file_path"]));
+    write("transforms.json", root.dump());
+    expect_points_in_their_pixels(open_light_field(folder));
+  };
+  expect_read([](const std::string& v) { return ".\\images\\" + v + ".png"; });
+  expect_read([](const std::string& v) { return "images\\" + v; });
+  expect_read([](const std::string& v) { return "Images/" + v + ".PNG"; });
+  expect_read([](const std::string& v) { return v + ".png"; });
+  expect_read([](const std::string& v) { return "images/" + v + ".jpg"; });
+  expect_read([](const std::string& v) { return "C:\\Users\\me\\scene\\images\\" + v + ".png"; });
+  expect_read([](const std::string& v) { return "/home/me/scene/images/" + v + ".png"; });
+  expect_read([](const std::string& v) { return "../other/rgb/" + v + ".png"; });
+  // One that is missing is not another one elsewhere.
+  json root = transforms();
+  std::filesystem::rename(folder / "images/v1.png", folder / "v1.png");
+  write("transforms.json", root.dump());
+  OpenOptions strict;
+  strict.strict = true;
+  expect_bad_input("images/v1.png: is missing", strict);
+}
+
+TEST_F(StatedCameras, TransformsJsonIsReadInTheSpellingOfOtherWriters) {
+  save_pictures("images/");
+  const auto expect_read = [&](auto change, const std::string& text_before = "") {
+    json root = transforms();
+    change(root);
+    SCOPED_TRACE(root.dump().substr(0, 300));
+    write("transforms.json", text_before + root.dump());
+    expect_points_in_their_pixels(open_light_field(folder));
+  };
+  for (const char* name : {"SIMPLE_RADIAL", "perspective", "pinhole", "radial", "opencv",
+                           "FULL_OPENCV", "simple_pinhole", ""})
+    expect_read([&](json& j) { j["camera_model"] = name; });
+  const auto without = [](json& j, std::initializer_list<const char*> keys) {
+    for (const char* key : keys) j.erase(key);
+  };
+  expect_read([&](json& j) { without(j, {"w", "h"}); });
+  expect_read([&](json& j) { without(j, {"w", "h", "cx", "cy", "fl_y"}); });
+  expect_read([&](json& j) {
+    without(j, {"fl_x", "fl_y", "cx", "cy"});
+    j["K"] = {{30, 0, 11.5}, {0, 30, 8.5}, {0, 0, 1}};
+  });
+  expect_read([&](json& j) {
+    without(j, {"w", "h"});
+    j["fl_x"] = j["fl_y"] = 99;
+    for (json& frame : j["frames"]) {
+      frame["intrinsics"] = {30, 0, 11.5, 0, 0, 30, 8.5, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+      frame["w"] = 23;
+      frame["h"] = 17;
+    }
+  });
+  expect_read([&](json& j) {
+    for (json& frame : j["frames"]) {
+      json flat = json::array();
+      for (const json& row : frame["transform_matrix"])
+        for (const json& value : row) flat.push_back(value);
+      frame["transform_matrix"] = flat;
+    }
+  });
+  expect_read([](json&) {}, "\xef\xbb\xbf");
+  json skewed = transforms();
+  skewed["K"] = {{30, 2, 11.5}, {0, 30, 8.5}, {0, 0, 1}};
+  write("transforms.json", skewed.dump());
+  expect_bad(".", "skew");
+}
+
 TEST_F(StatedCameras, PosesBoundsShowAKnownPointInItsPixelAndStateTheRange) {
   save_pictures("images/");
   write("poses_bounds.npy", npy(llff_rows()));
@@ -271,7 +366,10 @@ TEST_F(StatedCameras, DamagedPosesBoundsAreOneLine) {
   expect_named(npy(std::vector<double>(48, 1.0), 16), "not 17");
   std::vector<double> changed = rows;
   changed[17] = std::nan("");
-  expect_named(npy(changed), "row 1");
+  write("poses_bounds.npy", npy(changed));
+  OpenOptions strict;
+  strict.strict = true;
+  expect_bad_input("row 1", strict);
   changed = rows;
   changed[17] = 0.5;
   expect_named(npy(changed), "rotation");
@@ -316,7 +414,10 @@ TEST_F(StatedCameras, DamagedMiddleburyParIsOneLine) {
   expect_named(changed, "'nan'");
   changed = good;
   changed.replace(changed.find("v1.png"), 6, "v9.png");
-  expect_named(changed, "v9.png");
+  write("scene_par.txt", changed);
+  OpenOptions strict;
+  strict.strict = true;
+  expect_bad_input("v9.png", strict);
 }
 
 TEST_F(StatedCameras, StrechaCamerasShowAKnownPointInItsPixel) {

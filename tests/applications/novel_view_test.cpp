@@ -68,6 +68,22 @@ TEST(RigCameras, ProjectAsDisparityShifts) {
   }
 }
 
+TEST(RigCameras, OpticalAxesAreApartByTheDisparityOfInfinity) {
+  // A pair whose principal points are at 9 and 12 px: f B / (d + 3).
+  LightField pair;
+  pair.width = 23;
+  pair.height = 17;
+  pair.views = {{"left", -0.5, 0}, {"right", 0.5, 0}};
+  pair.rig = {150.5, 176.252, 150.5 * 176.252 / 3, "mm", Eigen::Vector2d(10.5, 8.25)};
+  const RigCameras rig(pair, 0);
+  EXPECT_NEAR(rig.camera(0).centre_u, 9, 1e-12);
+  EXPECT_NEAR(rig.camera(1).centre_u, 12, 1e-12);
+  EXPECT_NEAR(rig.camera(1).centre_v, 8.25, 1e-12);
+  const Eigen::Vector3d point = rig.camera(0).back_project(14, 5, 150.5 * 176.252 / (7 + 3));
+  EXPECT_NEAR(rig.camera(1).project(point).x(), 14 - 7, 1e-9);
+  EXPECT_NEAR(rig.camera(1).project(point).y(), 5, 1e-9);
+}
+
 TEST(RigCameras, DepthIsThatOfTheRig) {
   AnalyticField field = two_layers(row_of_views(3));
   field.light_field.rig = {1000.0, 0.025, 5.0, "m"};

@@ -178,9 +178,30 @@ TEST_F(Photographs, DamageToAModelIsOneLine) {
   expect_refusal("depth walk -o out", 1, "images.txt");
   std::ofstream(path) << good;
   std::filesystem::remove(folder / "walk/images/view_002.png");
-  expect_refusal("depth walk -o out", 1, "view_002.png", "is missing");
+  expect_refusal("depth walk -o out --strict", 1, "view_002.png", "is missing");
   std::ofstream(folder / "walk/sparse/0/cameras.txt") << "1 PINHOLE 240 160 nan 1 2 3\n";
   expect_refusal("depth walk -o out", 1, "cameras.txt");
+}
+
+TEST_F(Photographs, OneThatIsMissingIsNamedAndLeftOut) {
+  photograph();
+  std::filesystem::remove(folder / "walk/images/view_002.png");
+  const Result result = run("info walk");
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(result.out.find("is left out: view_002 (is missing)"), std::string::npos) << result.out;
+}
+
+TEST_F(Photographs, TwiceInAFolderNeverGoToColmap) {
+  ASSERT_EQ(run("synth planes --views 4 --width 64 --height 48 -o made").exit_code, 0);
+  std::filesystem::create_directory(folder / "twice");
+  for (int i = 0; i < 4; ++i) {
+    const std::string name = "view_00" + std::to_string(i);
+    for (const char* copy : {".png", ".jpg"})
+      std::filesystem::copy(folder / "made" / (name + ".png"), folder / "twice" / (name + copy));
+  }
+  for (const char* command :
+       {"info twice", "depth twice -o out", "depth twice -o out --find-cameras"})
+    expect_refusal(command, 1, "twice: holds pictures twice", "keep one of each");
 }
 
 TEST_F(Photographs, AreShrunkOnDemand) {

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Gigaray authors
-// Text: parameters.cfg of HCI scenes, Middlebury's par files, Strecha's .camera files, positions.
+// Text: parameters.cfg of HCI scenes, Middlebury's par and calib files, Strecha's .camera files,
+// MVSNet's cam files, positions.
 #include "fuzz.h"
 #include "hci_parameters.h"
 #include "positions_file.h"
 #include "stated_views.h"
+#include "stereo_calibration.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  const gigaray::fuzz::Input input(data, size, 5);
+  const gigaray::fuzz::Input input(data, size, 7);
   gigaray::fuzz::expect_result_or_one_line([&] {
     if (input.choice == 0) {
       const gigaray::HciParameters parameters(input.bytes, "fuzz");
@@ -17,8 +19,14 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     } else if (input.choice == 1) {
       for (const auto& view : gigaray::parse_middlebury_par(input.bytes, "fuzz"))
         GIGARAY_CHECK(!view.picture.empty() && view.rotation.allFinite());
-    } else if (input.choice >= 3) {
-      const std::size_t count = input.choice == 3 ? 2 : 5;
+    } else if (input.choice == 3) {
+      const auto view = gigaray::parse_mvsnet_camera(input.bytes, "fuzz");
+      GIGARAY_CHECK(view.inverse_depth && view.translation.allFinite());
+    } else if (input.choice == 4) {
+      const auto pair = gigaray::parse_stereo_calibration(input.bytes, "fuzz");
+      GIGARAY_CHECK(pair.focal_px > 0 && pair.baseline > 0);
+    } else if (input.choice >= 5) {
+      const std::size_t count = input.choice == 5 ? 2 : 5;
       const std::vector<std::filesystem::path> pictures{"a.png", "b.png", "c 1.png", "d.png", "e"};
       const auto positions = gigaray::parse_positions(input.bytes, "fuzz",
                                                       {pictures.begin(), pictures.begin() + count});

@@ -16,6 +16,8 @@ RigCameras::RigCameras(const LightField& light_field, double least_disparity)
   }
   const RigGeometry& rig = light_field.rig;
   is_metric_ = has_metric_depth(rig);
+  principal_point_ = {0.5 * (width_ - 1), 0.5 * (height_ - 1)};
+  if (rig.principal_point) principal_point_ = *rig.principal_point;
   focal_ = is_metric_ ? *rig.focal_px : std::max(width_, height_);
   step_ = is_metric_ ? *rig.baseline : 1;
   scale_ = focal_ * step_;
@@ -33,8 +35,8 @@ Camera RigCameras::camera_at(double s, double t) const {
   camera.width = width_;
   camera.height = height_;
   camera.focal_u = camera.focal_v = focal_;
-  camera.centre_u = 0.5 * (width_ - 1) + s * at_infinity_;
-  camera.centre_v = 0.5 * (height_ - 1) + t * at_infinity_;
+  camera.centre_u = principal_point_.x() + s * at_infinity_;
+  camera.centre_v = principal_point_.y() + t * at_infinity_;
   camera.translation = -step_ * Eigen::Vector3d(s, t, 0);
   return camera;
 }

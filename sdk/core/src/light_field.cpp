@@ -182,16 +182,23 @@ double place_by_cameras(LightField& light_field) {
   for (Eigen::Index i = 0; i < count; ++i)
     positions.col(i) = light_field.cameras[std::size_t(i)].position();
 
+  // Cameras at one place, as those of exposure brackets, are no neighbours.
+  constexpr double kSamePlace = 1e-6;  // of the spread
+  const double same =
+      kSamePlace * (positions.rowwise().maxCoeff() - positions.rowwise().minCoeff()).norm();
   std::vector<double> nearest;
   for (Eigen::Index i = 0; i < count; ++i) {
     double least = std::numeric_limits<double>::infinity();
     for (Eigen::Index j = 0; j < count; ++j)
-      if (i != j) least = std::min(least, (positions.col(i) - positions.col(j)).norm());
-    nearest.push_back(least);
+      if (const double away = (positions.col(i) - positions.col(j)).norm(); away > same)
+        least = std::min(least, away);
+    if (std::isfinite(least)) nearest.push_back(least);
   }
-  std::nth_element(nearest.begin(), nearest.begin() + count / 2, nearest.end());
-  const double step = nearest[std::size_t(count / 2)];
-  if (!(step > 0)) bad("the cameras all stand at one place: there is no parallax to see depth by");
+  if (nearest.empty())
+    bad("the cameras all stand at one place: there is no parallax to see depth by");
+  const auto middle_one = nearest.begin() + std::ptrdiff_t(nearest.size() / 2);
+  std::nth_element(nearest.begin(), middle_one, nearest.end());
+  const double step = *middle_one;
 
   const Eigen::Vector3d middle = positions.rowwise().mean();
   positions.colwise() -= middle;

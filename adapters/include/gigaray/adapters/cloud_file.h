@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "gigaray/adapters/atomic_output.h"
 #include "gigaray/point_cloud.h"
@@ -10,8 +11,8 @@
 namespace gigaray {
 
 /// Writes a point cloud piece by piece as binary PLY, little endian: x y z nx ny nz confidence
-/// support (float), red green blue (uchar). The file appears with commit(). Throws as
-/// AtomicFile does.
+/// support (float), red green blue (uchar). An origin other than 0, the same for all pieces, is
+/// stated as "comment origin X Y Z". The file appears with commit(). Throws as AtomicFile does.
 class CloudFile {
  public:
   explicit CloudFile(AtomicFile file);
@@ -24,6 +25,7 @@ class CloudFile {
 
  private:
   AtomicFile file_;
+  std::optional<Eigen::Vector3d> origin_;  ///< of the first piece
   std::uint64_t points_ = 0;
 };
 

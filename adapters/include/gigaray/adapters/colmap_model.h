@@ -49,6 +49,8 @@ struct ColmapModel {
 
   std::map<std::uint32_t, Lens> cameras;  ///< by id
   std::vector<Image> images;              ///< registered ones
+  /// Names of images left out, since their poses hold a number that is not finite.
+  std::vector<std::string> unposed = {};
   std::vector<Point> points;
 };
 
@@ -62,8 +64,9 @@ bool is_colmap_model(const std::filesystem::path& folder);
 /// Throws Error(kBadInput) naming the file: cut short, more entries stated than it can hold,
 /// numbers that are not finite, a quaternion more than 1 % from unit length (others are
 /// normalised), cameras that fail check(Lens), identifiers or names that repeat, an image of an
-/// unknown camera, no registered image.
-ColmapModel read_colmap_model(const std::filesystem::path& folder);
+/// unknown camera, no registered image. Not strict: images whose pose is not finite are left out
+/// while others are there.
+ColmapModel read_colmap_model(const std::filesystem::path& folder, bool strict = true);
 
 /// Writes the three files, each whole or not at all; creates the folder. Refuses, with
 /// Error(kInvalidArgument), text beside binary files of an earlier model: readers would prefer

@@ -58,7 +58,7 @@ void check_input_file(const std::filesystem::path& path);
 /// Everything in a file of at most `most` bytes. Throws Error as InputFile does, and kBadInput when
 /// the file is larger.
 std::string read_bytes(const std::filesystem::path& path, double most);
-/// The same of a text file.
+/// The same of a text file, as UTF-8: a byte order mark is taken away, UTF-16 with one converted.
 std::string read_text(const std::filesystem::path& path);
 /// The same of a JSON file, after check_json.
 std::string read_json_text(const std::filesystem::path& path, double memory_bytes = 0);

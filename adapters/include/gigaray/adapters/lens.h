@@ -21,8 +21,8 @@ struct Lens {
   bool operator==(const Lens&) const = default;
 };
 
-/// Names of the models that are known, all of COLMAP 3.8 – 3.12, in the order of COLMAP's numbers
-/// for them: lens_models()[4] is "OPENCV".
+/// Names of the models that are known, all of COLMAP 3.8 – 4 but the panorama EQUIRECTANGULAR, in
+/// the order of COLMAP's numbers for them: lens_models()[4] is "OPENCV".
 const std::vector<std::string>& lens_models();
 
 /// How many parameters a model has; 0 for an unknown one.
@@ -63,13 +63,17 @@ class LensMap {
   const Eigen::Vector2d& centre() const { return centre_; }  ///< px, pixel centres at integers
 
  private:
-  enum class Projection { kPerspective, kFisheye, kFieldOfView };
+  enum class Projection { kPerspective, kFisheye, kFieldOfView, kDivision, kUnified };
 
   void set_distortion(const Lens& lens);
   void find_limit();
   double radial(double r) const;
   template <class T>
   void bend(const T& x, const T& y, T& u, T& v) const;
+  // What a position at the distance √square from the principal point is divided by to become a
+  // direction; 0 or less: the lens shows nothing there.
+  double ahead_of_divided(double square) const;
+  double ahead_of_unified(double square) const;
   std::optional<Eigen::Vector2d> unbend(const Eigen::Vector2d& seen) const;
 
   Projection projection_ = Projection::kPerspective;
@@ -81,6 +85,8 @@ class LensMap {
   std::array<double, 4> prism_{};    // of r² and r⁴ in u, then in v
   bool radial_comes_first_ = false;  // tangential and prism parts of what the radial one gives
   double field_of_view_ = 0;         // ω of the model FOV, radians
+  double division_ = 0;              // k of the division models
+  double alpha_ = 0, beta_ = 1;      // of EUCM
   double limit_ = 0;                 // radius up to which the radial part rises
 };
 

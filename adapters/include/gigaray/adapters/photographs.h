@@ -24,6 +24,14 @@ bool is_plain_folder(const std::filesystem::path& input, const OpenOptions& opti
 /// naming an unreadable picture, or one that takes more than memory_bytes (OpenOptions).
 std::string why_no_series(const std::filesystem::path& folder, double memory_bytes = 0);
 
+/// Why a plain folder is neither one series nor photographs of one walk: it holds most pictures
+/// twice, as JPEG and as PNG, or two series of similar length. Empty: it may be.
+std::string why_twice(const std::filesystem::path& folder);
+
+/// A note that names files that look like cameras, in the input or directly beside it, and that a
+/// reader of `format` doesn't take. Empty: there are none.
+std::string unused_cameras(const std::filesystem::path& input, const std::string& format);
+
 /// Is a series of pictures what a 3D light field is, that is, do things move along the rows (or the
 /// columns) of the pictures alone from one view to the next? The median displacement across that
 /// direction of features matched between some neighbouring views, the largest of the views looked

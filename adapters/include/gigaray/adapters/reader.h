@@ -24,6 +24,12 @@ struct LensletGrid {
   int rows = 0;
 };
 
+/// Views in a grid.
+struct GridSize {
+  int rows = 0;  ///< 0: not stated
+  int columns = 0;
+};
+
 /// What the pictures alone don't say.
 struct OpenOptions {
   /// Text file with the position of every picture of a folder: `right`, `right down` or
@@ -44,6 +50,11 @@ struct OpenOptions {
   /// Most memory that opening the input and decoding one of its pictures may take, bytes. 0:
   /// default_memory_limit().
   double memory_bytes = 0;
+  /// Makes pictures with one number in their names a grid: row by row as the number rises.
+  GridSize grid = {};
+  /// Photographs with known cameras: one that is missing or damaged, or whose pose holds a number
+  /// that is not finite, is an error. Else it is left out, with a note.
+  bool strict = false;
 };
 
 /// Recognises what `input` is (registry.h) and opens it. Reads the headers of the pictures, not

@@ -34,13 +34,15 @@ struct CloudReport {
   double voxel = 0;            ///< scene units; with voxels of several sizes the usual one
   int tiles = 0;               ///< cubes that were worked on one after the other
   std::uint64_t bytes_on_disk = 0;
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< of every tile
 };
 
 /// One cloud of all views: points that other views confirm, merged in a grid of voxels, outliers
 /// removed, normals of the neighbourhood to the side that cameras saw (all PCL). Works tile by tile
-/// of space: `take` gets the points of one after the other, in an order that depends on nothing but
-/// the data. Throws Error(kInvalidArgument) for options, Error(kBadInput) when no point is left,
-/// Error(kIo) when the disk is full, kCancelled, and what `views` throws.
+/// of space, relative to an origin near the cameras when these stand far out (`nearby`): `take`
+/// gets the points of one after the other, in an order that depends on nothing but the data. Throws
+/// Error(kInvalidArgument) for options, Error(kBadInput) when no point is left, Error(kIo) when the
+/// disk is full, kCancelled, and what `views` throws.
 CloudReport build_cloud(const DepthViews& views, const CloudOptions& options,
                         const std::function<void(const PointCloud& tile)>& take,
                         const RunControl& control);

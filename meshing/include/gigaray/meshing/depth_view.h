@@ -28,6 +28,18 @@ struct DepthViews {
   int size() const { return int(cameras.size()); }
 };
 
+/// Views in a frame that floats are fine enough for.
+struct NearbyViews {
+  DepthViews views;                                  ///< the scene's axes, relative to `origin`
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< see PointCloud::origin
+};
+
+/// The views themselves while a float at the place of every camera is finer than 1/256 of
+/// `spacing`; else relative to a round place in their middle. spacing: distance of neighbouring
+/// points, scene units. Example: cameras around (500123.25, 4649776.5, 210) with points 0.02 apart:
+/// the origin is (500100, 4649800, 200).
+NearbyViews nearby(const DepthViews& views, double spacing);
+
 /// How far inverse depths may be apart and still belong to one surface, 1 / scene unit.
 struct SurfaceTolerance {
   /// Between views, and what depth may be off: a hundredth of the range that is seen.

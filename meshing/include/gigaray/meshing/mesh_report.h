@@ -22,7 +22,8 @@ struct MeshReport {
   bool is_watertight = false;          ///< no boundary, no self-intersection
   double area = 0;                     ///< scene units²
   std::optional<double> volume;        ///< scene units³, of a surface without boundary
-  Eigen::Vector3f least = Eigen::Vector3f::Zero(), most = Eigen::Vector3f::Zero();  ///< box
+  /// Box around the positions, relative to the origin of the mesh.
+  Eigen::Vector3f least = Eigen::Vector3f::Zero(), most = Eigen::Vector3f::Zero();
 };
 
 /// The surface is looked at as `cleaned` makes it a manifold. An empty one gives zeros.

@@ -48,7 +48,8 @@ KeptPixels keep_pixels(const DepthView& view, std::span<const DepthView> witness
 /// neighbours that belong to the same surface, else towards the camera. NaN: no estimate.
 FloatMap normals_of(const DepthView& view, SurfaceTolerance tolerance);
 
-/// Points of the pixels that are kept, row by row. Normals as `normals_of` gives them.
+/// Points of the pixels that are kept, row by row, in the frame of the view's camera, which floats
+/// must be fine enough for (`nearby`). Normals as `normals_of` gives them.
 PointCloud points_of(const DepthView& view, const KeptPixels& kept, SurfaceTolerance tolerance);
 
 }  // namespace gigaray

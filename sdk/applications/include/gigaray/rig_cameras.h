@@ -36,9 +36,10 @@ class RigCameras {
   LightFieldKind kind_;
   bool is_metric_ = true;
   int width_ = 0, height_ = 0;
-  double focal_ = 0, step_ = 0;  ///< px; scene units
-  double scale_ = 1;             ///< f · B
-  double at_infinity_ = 0;       ///< −disparity of a point at infinity
+  Eigen::Vector2d principal_point_ = Eigen::Vector2d::Zero();  ///< px, at s = t = 0
+  double focal_ = 0, step_ = 0;                                ///< px; scene units
+  double scale_ = 1;                                           ///< f · B
+  double at_infinity_ = 0;  ///< −disparity of a point at infinity
   std::vector<Camera> cameras_;
 };
 

@@ -40,6 +40,9 @@ struct RigGeometry {
   std::optional<double> baseline;        ///< Scene units per view step.
   std::optional<double> focus_distance;  ///< Scene units; plane of zero disparity. Empty: infinity.
   std::string unit;                      ///< Name of the scene unit: "m", "mm"; empty if unknown.
+  /// (u, v) of the optical axis at s = t = 0, where disparity 0 is at infinity: that of every view.
+  /// Level-0 pixels. Empty: the middle of the picture.
+  std::optional<Eigen::Vector2d> principal_point = {};
 };
 
 /// Closed range of disparities, level-0 pixels per view step, signed. min < max.
@@ -120,9 +123,9 @@ std::vector<int> views_from_centre(const LightField& light_field);
 double normalise_positions(std::vector<View>& views);
 
 /// Sets s and t of unstructured views from their cameras: the positions along the two main
-/// directions of their spread, in steps of the median distance to the nearest neighbour, 0 in the
-/// middle. Returns that distance in scene units. Throws Error(kBadInput) when all stand at one
-/// place.
+/// directions of their spread, in steps of the median distance to the nearest neighbour at another
+/// place, 0 in the middle. Returns that distance in scene units. Throws Error(kBadInput) when all
+/// stand at one place.
 double place_by_cameras(LightField& light_field);
 
 /// 3D when all t are equal, else 4D.

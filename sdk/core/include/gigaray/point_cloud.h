@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "gigaray/error.h"
+
 namespace gigaray {
 
 /// sRGB, 8 bit.
@@ -14,7 +16,10 @@ using Rgb8 = std::array<std::uint8_t, 3>;
 
 /// Points of surfaces. All lists are equally long.
 struct PointCloud {
-  std::vector<Eigen::Vector3f> positions;  ///< scene units, frame of the cameras' scene
+  /// Where the cameras' scene has what is (0, 0, 0) here, exactly as a file states it. Other than 0
+  /// for a scene so far from its own zero (UTM, ECEF) that floats are too coarse there.
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();
+  std::vector<Eigen::Vector3f> positions;  ///< scene units, relative to `origin`, the scene's axes
   std::vector<Eigen::Vector3f> normals;    ///< unit, to the side that cameras saw
   std::vector<Rgb8> colours;
   std::vector<float> confidences;  ///< [0, 1], as in ViewDepth::confidence
@@ -24,8 +29,10 @@ struct PointCloud {
   bool empty() const { return positions.empty(); }
 };
 
-/// Adds the points of `more` behind those of `cloud`.
+/// Adds the points of `more` behind those of `cloud`, which has the same origin or no points yet.
 inline void append(PointCloud& cloud, const PointCloud& more) {
+  if (cloud.empty()) cloud.origin = more.origin;
+  GIGARAY_CHECK(cloud.origin == more.origin);
   const auto join = [](auto& list, const auto& other) {
     list.insert(list.end(), other.begin(), other.end());
   };

@@ -13,8 +13,9 @@ namespace gigaray {
 
 /// A surface of triangles. Attributes of vertices are equally long.
 struct SurfaceMesh {
-  std::vector<Eigen::Vector3f> positions;  ///< scene units
-  std::vector<Eigen::Vector3f> normals;    ///< unit
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< as PointCloud::origin
+  std::vector<Eigen::Vector3f> positions;            ///< scene units, relative to `origin`
+  std::vector<Eigen::Vector3f> normals;              ///< unit
   std::vector<Rgb8> colours;
   /// Indices of vertices, counter-clockwise seen from the side that cameras saw.
   std::vector<std::array<std::uint32_t, 3>> faces;

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Gigaray authors
+#include <algorithm>
+#include <array>
+#include <system_error>
+
+#include "colmap_folders.h"
+#include "gigaray/adapters/photographs.h"
+#include "text.h"
+
+namespace gigaray {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Names of files of cameras, lower case, and the format whose reader takes them.
+struct CameraFiles {
+  std::string_view begin, end;
+  std::string_view format;  ///< empty: none
+};
+constexpr std::array kCameraFiles{
+    CameraFiles{"transforms", ".json", "transforms.json"},
+    CameraFiles{"cameras.txt", "", "COLMAP workspace"},
+    CameraFiles{"cameras.bin", "", "COLMAP workspace"},
+    CameraFiles{"images.txt", "", "COLMAP workspace"},
+    CameraFiles{"images.bin", "", "COLMAP workspace"},
+    CameraFiles{"poses_bounds.npy", "", "LLFF poses_bounds.npy"},
+    CameraFiles{"calib.txt", "", "Middlebury stereo pair with calib.txt"},
+    CameraFiles{"", "_par.txt", "Middlebury multi-view"},
+    CameraFiles{"", ".camera", "Strecha .camera files"},
+    CameraFiles{"", "_cam.txt", "MVSNet cameras"},
+    CameraFiles{"cameras", ".json", ""},
+    CameraFiles{"cameras", ".npz", ""},
+    CameraFiles{"cameras", ".xml", ""},
+};
+
+bool is_unused(const CameraFiles& kind, const std::string& name, const std::string& format) {
+  return name.starts_with(kind.begin) && name.ends_with(kind.end) &&
+         (!kind.end.empty() || name == kind.begin) && kind.format != format;
+}
+
+/// Does a folder with such a name hold cameras?
+bool holds_cameras(const fs::path& folder, const std::string& name, const std::string& format) {
+  std::error_code ignored;
+  if (name == "sparse") return format != "COLMAP workspace" && !colmap_models_of(folder).empty();
+  return (name == "cams" || name == "cameras") && format != "MVSNet cameras" &&
+         format != "Strecha .camera files" && !fs::is_empty(folder, ignored);
+}
+
+void add_unused(const fs::path& folder, const std::string& format, std::vector<fs::path>& found) {
+  std::error_code error;
+  for (auto entry = fs::directory_iterator(folder, error);
+       !error && entry != fs::directory_iterator(); entry.increment(error)) {
+    std::error_code ignored;
+    const std::string name = lower(entry->path().filename().string());
+    const bool is_there = entry->is_directory(ignored)
+                              ? holds_cameras(entry->path(), name, format)
+                              : entry->is_regular_file(ignored) &&
+                                    std::ranges::any_of(kCameraFiles, [&](const CameraFiles& kind) {
+                                      return is_unused(kind, name, format);
+                                    });
+    if (is_there) found.push_back(entry->path().lexically_normal());
+  }
+}
+
+}  // namespace
+
+std::string unused_cameras(const fs::path& input, const std::string& format) {
+  std::error_code ignored;
+  if (!fs::is_directory(input, ignored)) return {};
+  std::vector<fs::path> found;
+  add_unused(input, format, found);
+  const bool has_cameras = std::ranges::any_of(kCameraFiles, [&](const CameraFiles& kind) {
+    return !kind.format.empty() && kind.format == format;
+  });
+  // An input with cameras of its own has no need of others around it.
+  if (!has_cameras) add_unused(input / "..", format, found);
+  if (found.empty()) return {};
+  std::ranges::sort(found);
+  constexpr std::size_t kMostNamed = 4;
+  std::string names;
+  for (std::size_t i = 0; i < std::min(found.size(), kMostNamed); ++i)
+    names += (i > 0 ? ", " : "") + found[i].string();
+  if (found.size() > kMostNamed)
+    names += " and " + std::to_string(found.size() - kMostNamed) + " more";
+  return "looks like cameras and is not used: " + names;
+}
+
+}  // namespace gigaray

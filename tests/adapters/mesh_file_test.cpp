@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Gigaray authors
+#include "gigaray/adapters/mesh_file.h"
+
+#include <cstring>
+#include <nlohmann/json.hpp>
+
+#include "adapters/adapters_test.h"
+#include "gigaray/adapters/cloud_file.h"
+
+namespace gigaray {
+namespace {
+
+using nlohmann::json;
+
+/// A triangle for every colour, side by side.
+SurfaceMesh strip(const std::vector<Rgb8>& colours) {
+  SurfaceMesh mesh;
+  for (std::size_t i = 0; i < colours.size(); ++i) {
+    const float x = float(i);
+    for (const Eigen::Vector3f& corner : {Eigen::Vector3f(x, 0.25f, 3), Eigen::Vector3f(x, 1, 3),
+                                          Eigen::Vector3f(x + 0.5f, 1, 3)}) {
+      mesh.positions.push_back(corner);
+      mesh.normals.emplace_back(0, 0, -1);
+      mesh.colours.push_back(colours[i]);
+    }
+    const auto first = std::uint32_t(3 * i);
+    mesh.faces.push_back({first, first + 1, first + 2});
+  }
+  return mesh;
+}
+
+/// A .glb file as its specification describes it, read without the library that wrote it.
+class Glb {
+ public:
+  explicit Glb(std::string bytes) : bytes_(std::move(bytes)) {
+    EXPECT_EQ(bytes_.substr(0, 4), "glTF");
+    EXPECT_EQ(get<std::uint32_t>(4), 2u);
+    EXPECT_EQ(get<std::uint32_t>(8), bytes_.size());
+    const auto length = get<std::uint32_t>(12);
+    EXPECT_EQ(length % 4, 0u);
+    EXPECT_EQ(bytes_.substr(16, 4), "JSON");
+    root = json::parse(bytes_.substr(20, length));
+    EXPECT_EQ(bytes_.substr(20 + length + 4, 4), std::string("BIN\0", 4));
+    EXPECT_EQ(20 + length + 8 + get<std::uint32_t>(20 + length), bytes_.size());
+    binary_ = 20 + length + 8;
+  }
+
+  /// Values of an attribute of the only primitive, one list per vertex.
+  std::vector<std::vector<double>> attribute(const std::string& name) const {
+    const json& primitive = root.at("meshes").at(0).at("primitives").at(0);
+    const json& accessor = root.at("accessors").at(int(primitive.at("attributes").at(name)));
+    const json& view = root.at("bufferViews").at(int(accessor.at("bufferView")));
+    const int components = accessor.at("type") == "VEC4" ? 4 : 3;
+    EXPECT_EQ(accessor.at("componentType"), 5126) << "floats";
+    const std::size_t stride = view.value("byteStride", 4 * components);
+    const std::size_t begin =
+        binary_ + view.value("byteOffset", 0) + accessor.value("byteOffset", 0);
+    std::vector<std::vector<double>> values;
+    for (std::size_t i = 0; i < accessor.at("count"); ++i) {
+      values.emplace_back();
+      for (int k = 0; k < components; ++k)
+        values.back().push_back(get<float>(begin + i * stride + 4 * std::size_t(k)));
+    }
+    return values;
+  }
+
+  json root;
+
+ private:
+  template <class T>
+  T get(std::size_t at) const {
+    T value{};
+    std::memcpy(&value, bytes_.substr(at, sizeof value).data(), sizeof value);
+    return value;
+  }
+  std::string bytes_;
+  std::size_t binary_ = 0;
+};
+
+class MeshFile : public AdaptersTest {};
+
+TEST_F(MeshFile, ColoursOfGlbAreLinear) {
+  const SurfaceMesh mesh = strip({{0, 10, 11}, {128, 188, 255}, {1, 64, 200}});
+  write_mesh(folder / "a.glb", mesh);
+  const auto colours = Glb(read("a.glb")).attribute("COLOR_0");
+  ASSERT_EQ(colours.size(), 9u);
+  // Values of the standard's table.
+  const double wanted[3][3] = {{0, 0.00303527, 0.00334654},
+                               {0.21586050, 0.50288646, 1},
+                               {0.00030353, 0.05126946, 0.57758044}};
+  for (std::size_t i = 0; i < colours.size(); ++i)
+    for (std::size_t k = 0; k < 3; ++k)
+      EXPECT_NEAR(colours[i][k], wanted[i / 3][k], 1e-7) << i << " " << k;
+}
+
+TEST_F(MeshFile, OtherFormatsKeepTheColoursOfThePictures) {
+  const SurfaceMesh mesh = strip({{0, 51, 255}});
+  write_mesh(folder / "a.ply", mesh);
+  const std::string ply = read("a.ply");
+  const std::size_t body = ply.find("end_header\n") + 11;
+  EXPECT_EQ(ply.substr(body + 24, 3), std::string("\0\x33\xff", 3));
+  EXPECT_EQ(ply.find("origin"), std::string::npos);
+  write_mesh(folder / "a.obj", mesh);
+  EXPECT_NE(read("a.obj").find("v 0 0.25 3 0 0.2"), std::string::npos) << read("a.obj");
+}
+
+TEST_F(MeshFile, MaterialOfGlbShowsTheColoursOfTheVertices) {
+  write_mesh(folder / "a.glb", strip({{9, 80, 255}}));
+  const json root = Glb(read("a.glb")).root;
+  const json& material =
+      root.at("materials").at(int(root.at("meshes").at(0).at("primitives").at(0).at("material")));
+  const json& plain = material.at("pbrMetallicRoughness");
+  EXPECT_EQ(plain.at("metallicFactor"), 0);
+  EXPECT_EQ(plain.value("baseColorFactor", json({1, 1, 1, 1})), json({1, 1, 1, 1}));
+  EXPECT_FALSE(plain.contains("baseColorTexture"));
+  EXPECT_TRUE(material.at("extensions").contains("KHR_materials_unlit"));
+  EXPECT_EQ(root.at("extensionsUsed").at(0), "KHR_materials_unlit");
+}
+
+TEST_F(MeshFile, OriginIsStatedInEveryFormatAndMovesNothing) {
+  SurfaceMesh mesh = strip({{0, 51, 255}, {3, 4, 5}});
+  write_mesh(folder / "near.glb", mesh);
+  write_mesh(folder / "near.stl", mesh);
+  mesh.origin = {500123.25, 4649776.5, -0.1};
+  const std::string stated = "origin 500123.25 4649776.5 -0.1";
+  for (const char* name : {"a.ply", "a.obj", "a.glb", "a.stl"}) write_mesh(folder / name, mesh);
+  EXPECT_NE(read("a.ply").find("\ncomment " + stated + "\n"), std::string::npos);
+  EXPECT_EQ(read("a.obj").find("# " + stated + "\n"), 0u);
+  const std::string stl = read("a.stl"), near = read("near.stl");
+  EXPECT_NE(stl.substr(0, 80).find(stated), std::string::npos);
+  EXPECT_NE(stl.substr(0, 5), "solid");  // that would be text
+  EXPECT_EQ(stl.substr(80), near.substr(80));
+
+  const Glb far(read("a.glb")), close(read("near.glb"));
+  EXPECT_EQ(far.attribute("POSITION"), close.attribute("POSITION"));
+  EXPECT_EQ(far.attribute("COLOR_0"), close.attribute("COLOR_0"));
+  const json& node = far.root.at("nodes").at(int(far.root.at("scenes").at(0).at("nodes").at(0)));
+  EXPECT_EQ(node.at("extras").at("origin"), json({500123.25, 4649776.5, -0.1}));
+  EXPECT_FALSE(close.root.at("nodes").at(0).contains("extras"));
+}
+
+TEST_F(MeshFile, CloudStatesItsOriginToo) {
+  PointCloud cloud;
+  cloud.origin = {4200000, 172000, 1e-3};
+  cloud.positions = {{1, 2, 3}, {4, 5, 6}};
+  cloud.normals.resize(2, Eigen::Vector3f(0, 0, -1));
+  cloud.colours.resize(2, Rgb8{1, 2, 3});
+  cloud.confidences = cloud.supports = {1, 1};
+  CloudFile file(folder / "a.ply");
+  file.add(cloud);
+  file.add(cloud);
+  file.commit();
+  const std::string ply = read("a.ply");
+  const std::size_t body = ply.find("end_header\n") + 11;
+  EXPECT_NE(ply.find("\ncomment origin 4200000 172000 0.001\n"), std::string::npos) << ply;
+  EXPECT_NE(ply.find("\nelement vertex 4\n"), std::string::npos) << ply;
+  EXPECT_EQ(ply.size(), body + 4 * 35);
+  float x = 0;
+  std::memcpy(&x, ply.data() + body + 3 * 35, sizeof x);
+  EXPECT_EQ(x, 4);
+}
+
+}  // namespace
+}  // namespace gigaray
