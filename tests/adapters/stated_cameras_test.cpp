@@ -207,6 +207,8 @@ TEST_F(StatedCameras, PicturesMayLieElsewhere) {
   options.images = folder / "far/away";
   expect_points_in_their_pixels(open_light_field(folder, options));
   std::filesystem::remove(folder / "far/away/v1.png");
+  EXPECT_EQ(open_light_field(folder, options).num_views(), 2);
+  options.strict = true;
   expect_error(ErrorCode::kBadInput, "v1.png", [&] { open_light_field(folder, options); });
 }
 
