@@ -147,7 +147,7 @@ TEST_F(MeshFile, CloudStatesItsOriginToo) {
   cloud.normals.resize(2, Eigen::Vector3f(0, 0, -1));
   cloud.colours.resize(2, Rgb8{1, 2, 3});
   cloud.confidences = cloud.supports = {1, 1};
-  CloudFile file(folder / "a.ply");
+  CloudFile file(AtomicFile(folder / "a.ply"));
   file.add(cloud);
   file.add(cloud);
   file.commit();
