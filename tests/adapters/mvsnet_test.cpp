@@ -132,7 +132,10 @@ TEST_F(Mvsnet, DamagedOnesAreOneLine) {
   expect_bad(changed, "rotation");
   write("cams/" + name(1) + "_cam.txt", good);
   std::filesystem::remove(folder / "images" / (name(1) + ".png"));
-  expect_bad_input(name(1));
+  EXPECT_EQ(open_light_field(folder).num_views(), int(model.images.size()) - 1);
+  OpenOptions strict;
+  strict.strict = true;
+  expect_error(ErrorCode::kBadInput, name(1), [&] { open_light_field(folder, strict); });
 }
 
 }  // namespace
