@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <stdlib.h>
 #include <sys/resource.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <filesystem>
@@ -164,18 +165,25 @@ TEST_F(MemoryLimit, TheProcessesOwnLimitsDecide) {
   write("proc/self/statm", "25600 9 9 9 0 12800 0\n");  // 100 MiB mapped, 50 MiB of data
   EXPECT_TRUE(std::isinf(memory_left_by_limits(root)));
   {
-    const ScopedLimit space(RLIMIT_AS, rlim_t(512 * 1024 * kMiB));
-    EXPECT_EQ(memory_left_by_limits(root) / kMiB, 512 * 1024 - 100 - 300);
-    const ScopedLimit data(RLIMIT_DATA, rlim_t(256 * 1024 * kMiB));
-    EXPECT_EQ(memory_left_by_limits(root) / kMiB, 256 * 1024 - 50);
+    // Far above what the shadow memory of a sanitizer takes.
+    constexpr double kSpace = 1 << 30, kData = 1 << 29;  // MiB
+    const ScopedLimit space(RLIMIT_AS, rlim_t(kSpace * kMiB));
+    EXPECT_EQ(memory_left_by_limits(root) / kMiB, kSpace - 100 - 300);
+    const ScopedLimit data(RLIMIT_DATA, rlim_t(kData * kMiB));
+    EXPECT_EQ(memory_left_by_limits(root) / kMiB, kData - 50);
   }
 }
 
 TEST_F(MemoryLimit, OfThisProcessItIsAboveZeroAndTheDefaultIsThreeQuarters) {
   EXPECT_GT(available_memory(), 0);
   EXPECT_LE(default_memory_limit(), available_memory());
-  const ScopedLimit data(RLIMIT_DATA, rlim_t(64 * 1024 * kMiB));
-  EXPECT_LE(available_memory(), 64 * 1024 * kMiB);
+  // What the process has mapped, the shadow memory of a sanitizer too, and a GiB.
+  std::ifstream statm("/proc/self/statm");
+  double pages[6] = {};
+  for (double& count : pages) statm >> count;
+  const double mapped = pages[5] * double(sysconf(_SC_PAGESIZE));
+  const ScopedLimit data(RLIMIT_DATA, rlim_t(mapped + 1024 * kMiB));
+  EXPECT_LE(available_memory(), 1024 * kMiB);
 }
 
 }  // namespace
