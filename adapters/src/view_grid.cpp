@@ -76,9 +76,9 @@ void leave_out_dark_views(LightField& light_field) {
   const double middle = mean(centre_view(light_field));
   const std::vector<View>& views = light_field.views;
   bool is_vignetted = false;
-  for (const auto& [s, t] : {std::pair(-1, -1), {-1, 1}, {1, -1}, {1, 1}}) {
+  for (const std::pair<int, int>& way : {std::pair(-1, -1), {-1, 1}, {1, -1}, {1, 1}}) {
     const auto corner = std::ranges::max_element(
-        views, {}, [&](const View& view) { return s * view.s + t * view.t; });
+        views, {}, [&](const View& view) { return way.first * view.s + way.second * view.t; });
     is_vignetted = is_vignetted || is_dark(mean(int(corner - views.begin())), middle);
   }
   if (!is_vignetted) return;
