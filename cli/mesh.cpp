@@ -24,7 +24,7 @@ namespace {
 using nlohmann::ordered_json;
 
 /// With what CGAL keeps of them for cleaning and the report.
-constexpr double kVertexBytes = 150, kFaceBytes = 150;
+constexpr double kVertexBytes = 350, kFaceBytes = 300;
 
 struct Settings {
   SurfaceInput input;
@@ -50,6 +50,10 @@ SurfaceMesh surface_of(const Settings& settings, const DepthViews& views, PointC
                views, options, [&](const PointCloud& tile) { append(cloud, tile); }, control)
                .pixels;
   control.throw_if_cancelled();
+  // How many points there are shows only now; the surfaces of CGAL take most.
+  const double point_bytes = settings.method == "poisson" ? 4400 : 2400;
+  settings.memory.require(kProgramBytes + point_bytes * double(cloud.size()),
+                          fmt::format("a surface over {} points", cloud.size()));
   control.progress("surface", 0, 1);
   SurfaceMesh mesh = settings.method == "poisson"
                          ? poisson_mesh(cloud, {.spacing = 1, .trim = settings.trim}, control)
