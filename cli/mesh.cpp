@@ -24,7 +24,7 @@ namespace {
 using nlohmann::ordered_json;
 
 /// With what CGAL keeps of them for cleaning and the report.
-constexpr double kVertexBytes = 350, kFaceBytes = 300;
+constexpr double kVertexBytes = 350, kFaceBytes = 250;
 
 struct Settings {
   SurfaceInput input;
@@ -37,6 +37,9 @@ struct Settings {
   MemoryBudget memory;
   bool json = false;
 };
+
+/// What a surface over points takes for each of them.
+double point_bytes(const Settings& settings) { return settings.method == "poisson" ? 4400 : 2400; }
 
 SurfaceMesh surface_of(const Settings& settings, const DepthViews& views, PointCounts& counts,
                        const RunControl& control) {
@@ -51,8 +54,7 @@ SurfaceMesh surface_of(const Settings& settings, const DepthViews& views, PointC
                .pixels;
   control.throw_if_cancelled();
   // How many points there are shows only now; the surfaces of CGAL take most.
-  const double point_bytes = settings.method == "poisson" ? 4400 : 2400;
-  settings.memory.require(kProgramBytes + point_bytes * double(cloud.size()),
+  settings.memory.require(kProgramBytes + point_bytes(settings) * double(cloud.size()),
                           fmt::format("a surface over {} points", cloud.size()));
   control.progress("surface", 0, 1);
   SurfaceMesh mesh = settings.method == "poisson"
@@ -74,8 +76,11 @@ double bytes_before_surface(const Settings& settings, const DepthViews& views) {
   const double reading = SurfaceInput::view_bytes(pixels, views.size()) + 200 * pixels;
   // grid: a map of each view that has a part, and a surface of twice the pixels of a view.
   if (settings.method == "grid")
-    return kProgramBytes + reading + pixels * (4.0 * views.size() + 2 * kVertexBytes);
-  return kProgramBytes + reading + 64 * pixels * views.size();
+    return kProgramBytes + reading + pixels * (4.0 * views.size() + 2.5 * kVertexBytes);
+  // Views see much the same: two points for a pixel of one are more than there are as a rule.
+  const double points = std::min(double(settings.most_points), 2 * pixels);
+  return kProgramBytes + reading +
+         std::max(64 * pixels * views.size(), point_bytes(settings) * points);
 }
 
 double bytes_of_surface(const SurfaceMesh& mesh) {
