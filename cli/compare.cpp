@@ -21,6 +21,7 @@
 #include "gigaray/adapters/maps.h"
 #include "numbers.h"
 #include "output_option.h"
+#include "photographs.h"
 
 namespace gigaray::cli {
 namespace {
@@ -212,7 +213,7 @@ void run(const Settings& settings, const RunControl& control) {
   const std::vector<baselines::Baseline> others = chosen_baselines(settings);
   Contest contest;
   contest.repeats = settings.repeats;
-  contest.light_field = settings.run.input.open_light_field();
+  contest.light_field = open_views(settings.run.input, control);
   for (const std::string& note : contest.light_field.notes) control.message(note);
   const DepthOptions resolved = settings.run.resolve(contest.light_field, control);
   contest.view = centre_view(contest.light_field);

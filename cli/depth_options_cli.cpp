@@ -4,9 +4,11 @@
 
 #include <fmt/format.h>
 
+#include "gigaray/adapters/pose_check.h"
 #include "gigaray/camera_order.h"
 #include "memory_option.h"
 #include "numbers.h"
+#include "view_layout.h"
 
 namespace gigaray::cli {
 
@@ -96,6 +98,8 @@ DepthOptions DepthRunOptions::resolve(LightField& light_field, const RunControl&
   options.check();
   check(light_field);
   require_memory_to_look(light_field, options);
+  check_poses(light_field, input.open.convention.has_value(), control);
+  settle_layout(input, light_field, control);
   if (const auto range = check_direction(light_field, control); range && !options.disparity) {
     options.disparity = range;
     control.message(

@@ -15,6 +15,7 @@
 #include "memory_option.h"
 #include "numbers.h"
 #include "output_option.h"
+#include "photographs.h"
 
 namespace gigaray::cli {
 namespace {
@@ -110,7 +111,7 @@ void run(const Settings& settings, const RunControl& control) {
   std::vector<std::filesystem::path> inputs = settings.run.input.places();
   inputs.push_back(settings.depth);
   AtomicFile file(settings.output.path, settings.output.rules(std::move(inputs)), {".grl"});
-  LightField light_field = settings.run.input.open_light_field();
+  LightField light_field = open_views(settings.run.input, control);
   for (const std::string& note : light_field.notes) control.message(note);
   if (light_field.kind == LightFieldKind::kUnstructured)
     throw Error(ErrorCode::kInvalidArgument,

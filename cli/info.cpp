@@ -13,8 +13,8 @@
 #include "cameras.h"
 #include "command.h"
 #include "depth_options_cli.h"
-#include "gigaray/adapters/photographs.h"
 #include "gigaray/reconstruct.h"
+#include "photographs.h"
 #include "view_list.h"
 
 namespace gigaray::cli {
@@ -36,12 +36,19 @@ struct DepthForecast {
   std::string refusal;  ///< Empty: it can run.
 };
 
-DepthForecast forecast_depth(LightField light_field, const InfoOptions& options,
+/// Turns the light field into what depth takes it for, and says so in its notes.
+DepthForecast forecast_depth(LightField& light_field, const InfoOptions& options,
                              const RunControl& control) {
-  RunControl silent;
-  silent.on_progress = [&](const auto&...) { control.throw_if_cancelled(); };
+  RunControl listening;
+  std::vector<std::string> messages;
+  listening.on_progress = [&](const auto&...) { control.throw_if_cancelled(); };
+  listening.on_message = [&](const std::string& text) { messages.push_back(text); };
   try {
-    DepthOptions depth = options.run.resolve(light_field, silent);
+    LightField resolved = light_field;
+    DepthOptions depth = options.run.resolve(resolved, listening);
+    resolved.sign_is_assumed = light_field.sign_is_assumed;  // what the input says
+    light_field = std::move(resolved);
+    light_field.notes.insert(light_field.notes.end(), messages.begin(), messages.end());
     depth.views = parse_views(options.views, light_field);
     return {forecast(light_field, depth, options.run.backend()), ""};
   } catch (const Error& error) {
@@ -228,17 +235,7 @@ Run info_command(CLI::App& app) {
   app.add_flag("--json", options->json, "Print JSON");
   return [options](const RunControl& control) {
     InputOptions& input = options->run.input;
-    input.input = folder_of_photographs(input.input);
-    if (is_plain_folder(input.input, input.open)) {
-      if (const std::string why = why_twice(input.input); !why.empty())
-        throw Error(ErrorCode::kBadInput, why);
-      if (const std::string why = why_no_series(input.input, input.open.memory_bytes); !why.empty())
-        throw Error(ErrorCode::kBadInput,
-                    why +
-                        "; as photographs from anywhere they get cameras from `gigaray depth`, "
-                        "which runs COLMAP");
-    }
-    const LightField light_field = input.open_light_field();
+    LightField light_field = open_views(input, control);
     const DepthForecast depth = forecast_depth(light_field, *options, control);
     if (options->json)
       print_json(light_field, depth);

@@ -44,12 +44,21 @@ void parse_lenslet(const std::string& text, OpenOptions& open) {
 }
 
 void parse_grid(const std::string& text, OpenOptions& open) {
-  static const std::regex kSize(R"((\d{1,3})[xX](\d{1,3}))");
+  static const std::regex kSize(R"((\d{1,3})[xX](\d{1,3})(,snake)?)");
   std::smatch match;
   if (!std::regex_match(text, match, kSize) || std::stoi(match[1]) == 0 || std::stoi(match[2]) == 0)
-    throw CLI::ValidationError("--grid",
-                               "'" + text + "' is no number of rows and columns like 5x7");
-  open.grid = {std::stoi(match[1]), std::stoi(match[2])};
+    throw CLI::ValidationError(
+        "--grid", "'" + text + "' is no number of rows and columns like 5x7 or 5x7,snake");
+  open.grid = {std::stoi(match[1]), std::stoi(match[2]), match[3].matched};
+}
+
+void parse_convention(const std::string& text, OpenOptions& open) {
+  open.convention = parse_pose_convention(text);
+  if (!open.convention)
+    throw CLI::ValidationError("--convention",
+                               "'" + text +
+                                   "' is not opencv, opengl, unity, llff, ros, unreal or three of "
+                                   "R L U D F B as in RUB, with or without -w2c");
 }
 
 }  // namespace
@@ -78,7 +87,8 @@ void InputOptions::add_to(CLI::App& app) {
   app.add_option_function<std::string>(
          "--grid", [this](const std::string& text) { parse_grid(text, open); },
          "Numbered pictures: rows and columns of a grid that the numbers go through row by row, as "
-         "in 5x7")
+         "in 5x7; 5x7,snake: back along every second row (default: a line, unless they agree "
+         "better as a grid)")
       ->type_name("RxC");
   app.add_option_function<std::string>(
          "--lenslet", [this](const std::string& text) { parse_lenslet(text, open); },
@@ -92,6 +102,12 @@ void InputOptions::add_to(CLI::App& app) {
                  "Photographs with cameras: folder of masks, black is left out; NAME.png for the "
                  "picture NAME")
       ->type_name("DIR");
+  app.add_option_function<std::string>(
+         "--convention", [this](const std::string& text) { parse_convention(text, open); },
+         "Photographs with cameras: how the matrices of their poses are meant: opencv, opengl, "
+         "unity, llff, ros, unreal or the ways of x, y and z as in RDF (right, down, forward); "
+         "with -w2c behind it they take the scene to the camera (default: as the format has it)")
+      ->type_name("NAME");
   app.add_flag("--strict", open.strict,
                "Photographs with cameras: one that is missing, damaged or without a finite pose is "
                "an error, not left out");

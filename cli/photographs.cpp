@@ -9,6 +9,7 @@
 #include "gigaray/adapters/atomic_output.h"
 #include "gigaray/adapters/input_file.h"
 #include "gigaray/adapters/photographs.h"
+#include "view_layout.h"
 
 namespace gigaray::cli {
 namespace {
@@ -39,11 +40,16 @@ std::string record_of(const fs::path& photographs, const ColmapRunOptions& optio
   return record;
 }
 
-/// Why the pictures are no row; empty: they are, or may be.
-std::string why_no_row(const InputOptions& input, const RunControl& control) {
+/// Is said where the views are, with nothing left to judge?
+bool states_layout(const OpenOptions& open) {
+  return open.direction != Travel::kAuto || open.lenslet.columns > 0 || open.grid.rows > 0;
+}
+
+/// Why the pictures of a plain folder are no row and no grid; empty: they are, or may be.
+std::string why_walk(const InputOptions& input, const RunControl& control) {
   const std::string why = why_no_series(input.input, input.open.memory_bytes);
   if (!why.empty()) return why;
-  const LightField light_field = input.open_light_field();
+  LightField light_field = input.open_light_field();
   // Two whole pictures, and what is made of them to find features.
   constexpr double kBytesPerPixel = 18;
   hold_against_limit(
@@ -53,6 +59,9 @@ std::string why_no_row(const InputOptions& input, const RunControl& control) {
       opening_limit(input.open.memory_bytes));
   const auto across = displacement_across_rows(light_field, control);
   if (!across || *across <= kMostAcrossRows) return {};
+  RunControl silent;
+  silent.on_progress = control.on_progress;
+  if (settle_layout(input, light_field, silent)) return {};
   return fmt::format("{}: the pictures are no row, things move {:.1f} px across it",
                      input.input.string(), *across);
 }
@@ -89,16 +98,28 @@ fs::path find_cameras(const fs::path& photographs, const ColmapRunOptions& optio
   return work;
 }
 
+LightField open_views(InputOptions input, const RunControl& control) {
+  input.input = folder_of_photographs(input.input);
+  if (states_layout(input.open) || !is_plain_folder(input.input, input.open))
+    return input.open_light_field();
+  if (const std::string twice = why_twice(input.input); !twice.empty())
+    throw Error(ErrorCode::kBadInput, twice);
+  if (const std::string why = why_walk(input, control); !why.empty())
+    throw Error(ErrorCode::kBadInput, why +
+                                          "; as photographs from anywhere they get cameras from "
+                                          "`gigaray depth`, which runs COLMAP");
+  return input.open_light_field();
+}
+
 LightField open_or_find_cameras(InputOptions input, const OutputOption& output,
                                 const RunControl& control) {
   input.input = folder_of_photographs(input.input);
-  const bool states_row = input.open.direction != Travel::kAuto || input.open.lenslet.columns > 0 ||
-                          input.open.grid.rows > 0;
-  if (states_row || !is_plain_folder(input.input, input.open)) return input.open_light_field();
+  if (states_layout(input.open) || !is_plain_folder(input.input, input.open))
+    return input.open_light_field();
   if (const std::string twice = why_twice(input.input);
       !twice.empty() && !(input.find_cameras && twice.find("--find-cameras") != std::string::npos))
     throw Error(ErrorCode::kBadInput, twice);
-  std::string why = input.find_cameras ? "" : why_no_row(input, control);
+  const std::string why = input.find_cameras ? "" : why_walk(input, control);
   if (!input.find_cameras && why.empty()) return input.open_light_field();
   if (!why.empty()) control.message(why + "; their cameras are found with COLMAP");
   ColmapRunOptions options;

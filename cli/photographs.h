@@ -19,6 +19,10 @@ std::filesystem::path find_cameras(const std::filesystem::path& photographs,
                                    const ColmapRunOptions& options, const OutputOption& output,
                                    const RunControl& control);
 
+/// Opens an input for the commands that don't find cameras: photographs from anywhere are an error
+/// that says what does, by the same rule as open_or_find_cameras.
+LightField open_views(InputOptions input, const RunControl& control);
+
 /// Opens an input. When it is a folder of photographs from anywhere, that is, pictures that form no
 /// row, find_cameras() comes first.
 LightField open_or_find_cameras(InputOptions input, const OutputOption& output,

@@ -19,6 +19,7 @@
 #include "gigaray/reconstruct.h"
 #include "gigaray/samplers/any_sampler.h"
 #include "output_option.h"
+#include "photographs.h"
 #include "view_list.h"
 
 namespace gigaray::cli {
@@ -261,13 +262,13 @@ void run(const Settings& settings, const RunControl& control) {
   if (settings.output.is_given())
     folder.emplace(settings.output.path, kProbeFormat,
                    settings.output.rules(settings.run.input.places()));
-  LightField light_field = settings.run.input.open_light_field();
+  LightField light_field = open_views(settings.run.input, control);
   for (const std::string& note : light_field.notes) control.message(note);
   Finding finding;
+  const DepthOptions options = settings.run.resolve(light_field, control);
   finding.view = parse_view(settings.view, light_field);
   finding.u = settings.at[0];
   finding.v = settings.at[1];
-  const DepthOptions options = settings.run.resolve(light_field, control);
   // With a weight by edges the confidence of a pixel is known in a whole run only.
   if (!options.winner.weigh_by_edge) finding.min_confidence = options.winner.min_confidence;
   finding.curve = probe(light_field, options, settings.run.backend(), finding.view, finding.u,

@@ -22,6 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kName = "COLMAP workspace";
+const PoseConvention kConvention{"RDF", true};
 
 bool is_there(const fs::path& path) {
   std::error_code ignored;
@@ -101,6 +102,44 @@ class SparseDepths {
   std::unordered_map<std::uint32_t, std::vector<const ColmapModel::Point*>> seen_by_;
 };
 
+/// Do the points of the model lie where its images have found them? Then its poses need no other
+/// check.
+bool shows_its_points(const ColmapModel& model) {
+  constexpr std::size_t kLeastSights = 50;
+  constexpr double kNear = 0.02;  // of the width: of guessed lenses too
+  std::unordered_map<std::uint64_t, const ColmapModel::Point*> points;
+  for (const ColmapModel::Point& point : model.points) points[point.id] = &point;
+  std::size_t num_sights = 0, num_near = 0;
+  for (const ColmapModel::Image& image : model.images) {
+    const Lens& lens = model.cameras.at(image.camera_id);
+    const LensMap map(lens);
+    for (const ColmapModel::Feature& feature : image.features) {
+      const auto found = points.find(feature.point_id);
+      if (found == points.end()) continue;
+      ++num_sights;
+      const Eigen::Vector3d at = image.rotation * found->second->position + image.translation;
+      if (!(at.z() > 0)) continue;
+      const auto pixel = map.distort(at.head<2>() / at.z());
+      num_near +=
+          pixel && (*pixel - Eigen::Vector2d(feature.x, feature.y)).norm() < kNear * lens.width;
+    }
+  }
+  return num_sights >= kLeastSights && 2 * num_near > num_sights;
+}
+
+/// Reads the poses of all images in another convention than COLMAP's. Is the scene mirrored?
+bool read_poses(ColmapModel& model, const PoseConvention& convention) {
+  bool is_mirrored = false;
+  for (ColmapModel::Image& image : model.images) {
+    const CameraPose stated{image.rotation.toRotationMatrix(), image.translation, false};
+    const CameraPose pose = read_pose(state_pose(stated, kConvention), convention).value();
+    image.rotation = Eigen::Quaterniond(pose.rotation);
+    image.translation = pose.translation;
+    is_mirrored = pose.is_mirrored;
+  }
+  return is_mirrored;
+}
+
 LightField open_model(FoundColmapModel found, const OpenOptions& options,
                       std::vector<std::string> notes) {
   std::vector<ColmapModel::Image>& images = found.model.images;
@@ -109,6 +148,8 @@ LightField open_model(FoundColmapModel found, const OpenOptions& options,
                 found.folder.string() +
                     ": only one image is registered, depth needs two or more; take pictures that "
                     "overlap more");
+  const PoseConvention convention = options.convention.value_or(kConvention);
+  const bool is_mirrored = options.convention && read_poses(found.model, convention);
   std::sort(images.begin(), images.end(),
             [](const auto& a, const auto& b) { return a.name < b.name; });
   std::vector<std::string> stated;
@@ -148,6 +189,8 @@ LightField open_model(FoundColmapModel found, const OpenOptions& options,
   LightField light_field =
       posed_light_field(std::move(pictures), kName, options.memory_bytes, options.strict);
   light_field.notes.insert(light_field.notes.begin(), notes.begin(), notes.end());
+  if (!shows_its_points(found.model))
+    light_field.pose_reading = PoseReading{name_of(convention), is_mirrored};
   return light_field;
 }
 

@@ -14,6 +14,7 @@
 #include "picture_files.h"
 #include "readers.h"
 #include "text.h"
+#include "view_grid.h"
 
 namespace gigaray {
 namespace {
@@ -96,6 +97,7 @@ class HciReader : public Reader {
       columns = parameters ? parameters->cameras("num_cams_x", kUsualCameras) : usual;
       rows = parameters ? parameters->cameras("num_cams_y", kUsualCameras) : usual;
     }
+    const GridSize size{rows, columns, options.grid.snake};
     const std::string grid = std::to_string(columns) + "×" + std::to_string(rows);
     if (!parameters)
       light_field.notes.push_back(
@@ -110,17 +112,19 @@ class HciReader : public Reader {
                     path.string() + ": camera " + std::to_string(number) +
                         " is outside a grid of " + grid +
                         "; num_cams_x and num_cams_y in parameters.cfg or --grid state the grid");
-      left = std::min(left, number % columns);
-      right = std::max(right, number % columns);
-      top = std::min(top, number / columns);
-      bottom = std::max(bottom, number / columns);
+      const GridCell cell = cell_of(number, size);
+      left = std::min(left, cell.column);
+      right = std::max(right, cell.column);
+      top = std::min(top, cell.row);
+      bottom = std::max(bottom, cell.row);
     }
     std::vector<fs::path> files;
     for (const auto& [number, path] : cameras) {
       View view;
       view.name = path.stem().string();
-      place_camera(view, number % columns - origin(columns, left, right),
-                   number / columns - origin(rows, top, bottom));
+      const GridCell cell = cell_of(number, size);
+      place_camera(view, cell.column - origin(columns, left, right),
+                   cell.row - origin(rows, top, bottom));
       light_field.views.push_back(view);
       files.push_back(path);
     }

@@ -146,7 +146,7 @@ class ImageSequenceReader : public Reader {
       throw Error(ErrorCode::kInvalidArgument, "--grid: " + what);
     };
     if (!options.positions.empty()) refuse("--positions states where the pictures stand");
-    const auto [rows, columns] = options.grid;
+    const int rows = options.grid.rows, columns = options.grid.columns;
     const Directions directions = Directions::of_grid(options, Travel::kRight, Travel::kDown);
     Series series = series_of(input, pictures);
     if (series.files.size() < 2) bad(input, "only one numbered picture; a light field needs two");
@@ -160,11 +160,10 @@ class ImageSequenceReader : public Reader {
     LightField light_field;
     light_field.notes = std::move(series.notes);
     for (std::size_t i = 0; i < steps.size(); ++i) {
-      const int cell = int(std::lround(steps[i]));
+      const GridCell cell = cell_of(int(std::lround(steps[i])), options.grid);
       View view;
       view.name = series.files[i].stem().string();
-      directions.place(view, cell % columns - (columns - 1) / 2.0,
-                       cell / columns - (rows - 1) / 2.0);
+      directions.place(view, cell.column - (columns - 1) / 2.0, cell.row - (rows - 1) / 2.0);
       light_field.views.push_back(view);
     }
     light_field.kind = kind_from_positions(light_field.views);

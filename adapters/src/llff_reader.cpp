@@ -102,13 +102,10 @@ std::vector<StatedView> parse_poses_bounds(std::string_view bytes, const std::st
     const std::string place = where + ", row " + std::to_string(i);
     const auto pose = [&](int row, int column) { return rows(i, 5 * row + column); };
     StatedView view;
-    Eigen::Matrix3d axes;
-    Eigen::Vector3d position;
-    for (int row = 0; row < 3; ++row) {
-      axes.row(row) << pose(row, 1), pose(row, 0), -pose(row, 2);
-      position[row] = pose(row, 3);
-    }
-    set_pose(view, axes, position, place);
+    StatedPose matrix;
+    for (int row = 0; row < 3; ++row)
+      for (int column = 0; column < 4; ++column) matrix(row, column) = pose(row, column);
+    set_pose(view, matrix, {"DRB", false}, place);
     const double height = pose(0, 4), width = pose(1, 4), focal = pose(2, 4);
     constexpr double kMost = 1 << 20;
     if (!(width >= 1 && width <= kMost && height >= 1 && height <= kMost))

@@ -81,10 +81,10 @@ std::vector<StatedView> parse_middlebury_par(std::string_view text, const std::s
     StatedView view;
     view.picture = words.front();
     set_projection(view, numbers.data(), place);
-    const Eigen::Matrix3d rotation =
-        Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(numbers.data() + 9);
-    const Eigen::Vector3d translation(numbers[18], numbers[19], numbers[20]);
-    set_pose(view, rotation.transpose(), -rotation.transpose() * translation, place);
+    StatedPose matrix;
+    matrix << Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(numbers.data() + 9),
+        Eigen::Vector3d(numbers[18], numbers[19], numbers[20]);
+    set_pose(view, matrix, {"RDF", true}, place);
     views.push_back(std::move(view));
   }
   if (!stated) throw Error(ErrorCode::kBadInput, where + ": is empty");

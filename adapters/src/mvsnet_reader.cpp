@@ -133,10 +133,8 @@ StatedView parse_mvsnet_camera(std::string_view text, const std::string& where) 
   set_projection(view, k.data(), where);
   view.lens.params = {k[0], k[4], k[2], k[5]};
   view.may_be_of_a_copy = true;  // DTU has K for maps of a quarter of the size
-  const Eigen::Matrix4d scene_to_camera =
-      Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(pose.data());
-  const Eigen::Matrix3d axes = scene_to_camera.topLeftCorner<3, 3>().transpose();
-  set_pose(view, axes, -axes * scene_to_camera.topRightCorner<3, 1>(), where);
+  set_pose(view, Eigen::Map<const Eigen::Matrix<double, 3, 4, Eigen::RowMajor>>(pose.data()),
+           {"RDF", true}, where);
   view.inverse_depth = range_of(numbers_at(depths_at, words.size() - depths_at), where);
   return view;
 }

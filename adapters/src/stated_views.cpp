@@ -2,8 +2,6 @@
 // Copyright (c) 2026 The Gigaray authors
 #include "stated_views.h"
 
-#include <Eigen/LU>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <system_error>
@@ -47,24 +45,42 @@ void complete_lens(StatedView& view, const fs::path& picture, double limit) {
 
 }  // namespace
 
-void set_pose(StatedView& view, const Eigen::Matrix3d& axes, const Eigen::Vector3d& position,
+void set_pose(StatedView& view, const StatedPose& matrix, const PoseConvention& convention,
               const std::string& where) {
-  constexpr double kRounding = 1e-3;
-  const auto bad = [&](const char* what) {
-    throw Error(ErrorCode::kBadInput, where + ": " + what);
-  };
-  if (!axes.allFinite() || !position.allFinite()) {
+  view.matrix = matrix;
+  view.convention = convention;
+  if (!matrix.allFinite()) {
     view.fault = where + ": its pose holds a number that is not finite";
     return;
   }
-  const Eigen::Matrix3d square = axes * axes.transpose();
-  if ((square - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() > kRounding ||
-      axes.determinant() < 0)
-    bad("its rotation is none (not orthonormal, or mirrored)");
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(axes, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  view.rotation = (svd.matrixU() * svd.matrixV().transpose()).transpose();
-  view.translation = -view.rotation * position;
+  const auto pose = read_pose(matrix, convention);
+  if (!pose)
+    throw Error(ErrorCode::kBadInput,
+                where + ": its rotation is none (its axes are not orthogonal or of one length)");
+  view.pose = *pose;
 }
+
+namespace {
+
+/// Left-handed frames are that in all views or in none. Are they?
+bool find_mirrored(std::vector<StatedView>& views, const std::string& where,
+                   std::vector<std::string>& notes) {
+  const auto is_mirrored = [](const StatedView& view) {
+    return view.fault.empty() && view.pose.is_mirrored;
+  };
+  const auto count = std::ranges::count_if(views, is_mirrored);
+  if (count == 0) return false;
+  const bool all = 2 * std::size_t(count) > views.size();
+  for (StatedView& view : views)
+    if (view.fault.empty() && is_mirrored(view) != all)
+      view.fault = where + ": the frame of " + view.picture + " is " + (all ? "right" : "left") +
+                   "-handed, unlike the others";
+  if (all)
+    notes.push_back("the frames are left-handed: z of the scene is turned around to read them");
+  return all;
+}
+
+}  // namespace
 
 LightField open_stated_views(std::vector<StatedView> views, const fs::path& file,
                              const std::vector<fs::path>& folders, const OpenOptions& options,
@@ -77,6 +93,11 @@ LightField open_stated_views(std::vector<StatedView> views, const fs::path& file
       options.images.empty() ? folders : std::vector{options.images};
   std::sort(views.begin(), views.end(),
             [](const StatedView& a, const StatedView& b) { return a.picture < b.picture; });
+  if (options.convention)
+    for (StatedView& view : views)
+      set_pose(view, view.matrix, *options.convention, file.string() + ", " + view.picture);
+  std::vector<std::string> notes;
+  const bool is_mirrored = find_mirrored(views, file.string(), notes);
   std::vector<std::string> stated;
   for (const StatedView& view : views) stated.push_back(view.picture);
   const auto [place, names] = find_names(places, stated);
@@ -101,8 +122,8 @@ LightField open_stated_views(std::vector<StatedView> views, const fs::path& file
       picture.fault = fault_of_picture(picture.file, limit);
     if (picture.fault.empty()) complete_lens(view, picture.file, limit);
     picture.lens = view.lens;
-    picture.rotation = view.rotation;
-    picture.translation = view.translation;
+    picture.rotation = view.pose.rotation;
+    picture.translation = view.pose.translation;
     picture.inverse_depth = view.inverse_depth;
     if (!view.mask.empty() && options.masks.empty()) {
       const std::string mask = beside_file.find(view.mask);
@@ -110,10 +131,10 @@ LightField open_stated_views(std::vector<StatedView> views, const fs::path& file
     }
     pictures.push_back(std::move(picture));
   }
-  std::vector<std::string> notes;
   if (!options.masks.empty()) attach_masks(pictures, names, options.masks, notes);
   LightField light_field =
       posed_light_field(std::move(pictures), format, options.memory_bytes, options.strict);
+  light_field.pose_reading = PoseReading{name_of(views.front().convention), is_mirrored};
   light_field.notes.insert(light_field.notes.begin(), notes.begin(), notes.end());
   return light_field;
 }

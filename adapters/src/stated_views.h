@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "gigaray/adapters/lens.h"
+#include "gigaray/adapters/pose_convention.h"
 #include "gigaray/adapters/reader.h"
 #include "gigaray/light_field.h"
 
@@ -27,8 +28,9 @@ struct StatedView {
   bool may_be_of_a_copy = false;
   /// Is the principal point in the middle of the picture? For a lens of width 0.
   bool is_centred = false;
-  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
-  Eigen::Vector3d translation = Eigen::Vector3d::Zero();
+  StatedPose matrix = StatedPose::Identity();  ///< as in the file
+  PoseConvention convention;                   ///< of the file's format
+  CameraPose pose;                             ///< the matrix read in it
   std::optional<InverseDepthRange> inverse_depth;
   std::string fault;  ///< why it can't be used, one line with the file; empty: it can
 };
@@ -41,10 +43,9 @@ std::vector<StatedView> parse_middlebury_par(std::string_view text, const std::s
 StatedView parse_strecha_camera(std::string_view text, const std::string& where);
 StatedView parse_mvsnet_camera(std::string_view text, const std::string& where);
 
-/// Sets the pose of a camera that stands at `position`; axes: its right, down and ahead as columns,
-/// in the scene. Rounding in the file is made good; numbers that are not finite are a fault of the
-/// view; throws Error(kBadInput) when the axes are no rotation.
-void set_pose(StatedView& view, const Eigen::Matrix3d& axes, const Eigen::Vector3d& position,
+/// Sets the pose of a view from the matrix that a file states, see read_pose. Numbers that are not
+/// finite are a fault of the view; throws Error(kBadInput) when the axes are no rotation.
+void set_pose(StatedView& view, const StatedPose& matrix, const PoseConvention& convention,
               const std::string& where);
 
 /// Opens the pictures of views that a file states, every one with `picture`. folders: where they

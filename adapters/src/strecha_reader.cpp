@@ -78,8 +78,10 @@ StatedView parse_strecha_camera(std::string_view text, const std::string& where)
                   where + ": has a distortion; only undistorted pictures can be read");
     next += 3;
   }
-  const Eigen::Matrix3d axes = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(next);
-  set_pose(view, axes, {next[9], next[10], next[11]}, where);
+  StatedPose matrix;
+  matrix << Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(next),
+      Eigen::Vector3d(next[9], next[10], next[11]);
+  set_pose(view, matrix, {"RDF", false}, where);
   return view;
 }
 

@@ -98,7 +98,7 @@ std::vector<double> flat(const json& matrix) {
 }
 
 /// Rows of 4 numbers, 3 or 4 of them.
-Eigen::Matrix<double, 3, 4> matrix_of(const Entries& entries) {
+StatedPose matrix_of(const Entries& entries) {
   const json* matrix = entries.find("transform_matrix");
   if (!matrix) entries.bad("has no transform_matrix");
   const std::vector<double> numbers = flat(*matrix);
@@ -188,10 +188,7 @@ StatedView view_of(const Entries& entries) {
   } else {
     entries.bad("states neither fl_x nor camera_angle_x");
   }
-  const Eigen::Matrix<double, 3, 4> pose = matrix_of(entries);
-  Eigen::Matrix3d axes = pose.leftCols<3>();
-  axes.rightCols<2>() *= -1;  // up → down, back → ahead
-  set_pose(view, axes, pose.col(3), entries.where());
+  set_pose(view, matrix_of(entries), {"RUB", false}, entries.where());
   return view;
 }
 

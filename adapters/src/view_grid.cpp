@@ -43,6 +43,11 @@ std::vector<View> grid_views(int rows, int columns, const Directions& directions
   return views;
 }
 
+GridCell cell_of(int number, const GridSize& grid) {
+  const int row = number / grid.columns, along = number % grid.columns;
+  return {row, grid.snake && row % 2 == 1 ? grid.columns - 1 - along : along};
+}
+
 void assume_directions(LightField& light_field, const Directions& directions) {
   if (directions.stated()) return;
   light_field.sign_is_assumed = true;

@@ -15,6 +15,12 @@ namespace gigaray {
 std::vector<View> grid_views(int rows, int columns, const Directions& directions,
                              double row_step = 1);
 
+/// Row and column of a number from 0 on in a grid.
+struct GridCell {
+  int row = 0, column = 0;
+};
+GridCell cell_of(int number, const GridSize& grid);
+
 /// Says that the directions of a grid without a stated one are assumed.
 void assume_directions(LightField& light_field, const Directions& directions);
 

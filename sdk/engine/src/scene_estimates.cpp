@@ -161,32 +161,61 @@ std::vector<PixelMatch> match_edges(const Band& band, const S& level0_sampler, b
 
 }  // namespace
 
-RangeEstimate estimate_disparity_range(const LightField& light_field, const RunControl& control) {
-  const LightField views = subset(light_field, central_views(light_field, kMostViews));
+namespace {
+
+/// A search of the whole range that views on a line or in a plane can have.
+struct WideSearch {
+  std::vector<PixelMatch> matches;
+  HypothesisRange range;
+  int level = 0;
+  double radius = 0;  ///< view steps from the first view to the farthest one
+};
+
+WideSearch search_widely(const LightField& views, const RunControl& control, int most_pixels) {
   const Band band = small_band(views);
-  double radius = 0;
+  WideSearch search;
+  search.level = band.shape.level;
   for (const View& view : views.views)
-    radius = std::max(radius, std::hypot(view.s - views.views[0].s, view.t - views.views[0].t));
+    search.radius =
+        std::max(search.radius, std::hypot(view.s - views.views[0].s, view.t - views.views[0].t));
   // A step moves the outermost view by half a pixel of the small pictures; the search ends where
   // neighbouring views differ by a sixteenth of the width.
   const double scale = double(1 << band.shape.level);
-  const double most = band.shape.width / 16.0 * scale, step = 0.5 / radius * scale;
-  const HypothesisRange search{-most, most, int(std::ceil(2 * most / step)) | 1};
-  const bool is_4d = light_field.kind != LightFieldKind::k3D;
-  const std::vector<PixelMatch> matches = std::visit(
-      [&](const auto& sampler) { return match_edges(band, sampler, is_4d, search, control); },
+  const double most = band.shape.width / 16.0 * scale, step = 0.5 / search.radius * scale;
+  search.range = {-most, most, int(std::ceil(2 * most / step)) | 1};
+  const bool is_4d = views.kind != LightFieldKind::k3D;
+  search.matches = std::visit(
+      [&](const auto& sampler) {
+        return match_edges(band, sampler, is_4d, search.range, control, most_pixels);
+      },
       make_sampler(views));
+  return search;
+}
 
+double mean_score(const std::vector<PixelMatch>& matches) {
+  double sum = 0;
+  for (const PixelMatch& match : matches) sum += match.score;
+  return matches.empty() ? 0 : sum / double(matches.size());
+}
+
+}  // namespace
+
+double measure_agreement(const LightField& light_field, const RunControl& control) {
+  return mean_score(search_widely(light_field, control, kMostPixels / 5).matches);
+}
+
+RangeEstimate estimate_disparity_range(const LightField& light_field, const RunControl& control) {
+  const auto [matches, search, level, radius] = search_widely(
+      subset(light_field, central_views(light_field, kMostViews)), control, kMostPixels);
   RangeEstimate estimate;
-  estimate.pixel_size = 1 << band.shape.level;
+  estimate.pixel_size = 1 << level;
   estimate.radius = radius;
+  estimate.agreement = mean_score(matches);
   std::vector<float> reliable;
   for (const PixelMatch& match : matches) {
-    estimate.agreement += match.score / double(matches.size());
     if (match.score <= kReliableScore || match.lead <= kReliableLead) continue;
     reliable.push_back(match.disparity);
-    estimate.matches.push_back(
-        {match.u << band.shape.level, match.v << band.shape.level, match.disparity});
+    estimate.matches.push_back({match.u << level, match.v << level, match.disparity});
   }
   constexpr std::size_t kLeast = 30;
   if (reliable.size() < kLeast)

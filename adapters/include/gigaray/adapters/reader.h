@@ -3,7 +3,9 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 
+#include "gigaray/adapters/pose_convention.h"
 #include "gigaray/light_field.h"
 
 namespace gigaray {
@@ -28,6 +30,7 @@ struct LensletGrid {
 struct GridSize {
   int rows = 0;  ///< 0: not stated
   int columns = 0;
+  bool snake = false;  ///< the numbers go back along every second row
 };
 
 /// What the pictures alone don't say.
@@ -52,6 +55,8 @@ struct OpenOptions {
   double memory_bytes = 0;
   /// Makes pictures with one number in their names a grid: row by row as the number rises.
   GridSize grid = {};
+  /// How the matrices of stated poses are meant. Empty: as the format has it.
+  std::optional<PoseConvention> convention = {};
   /// Photographs with known cameras: one that is missing or damaged, or whose pose holds a number
   /// that is not finite, is an error. Else it is left out, with a note.
   bool strict = false;

@@ -66,6 +66,12 @@ class PixelSource {
   virtual int bit_depth() const = 0;  ///< 8 or 16, the same for all views.
 };
 
+/// How an adapter read poses that an input states: pose_convention.h of the adapters.
+struct PoseReading {
+  std::string convention;
+  bool is_mirrored = false;  ///< z of the scene was turned around
+};
+
 /// Views, positions, geometry, and where to get the pixels. Cheap to copy; no pixel is held.
 struct LightField {
   LightFieldKind kind = LightFieldKind::k3D;
@@ -84,6 +90,8 @@ struct LightField {
   /// Which way the camera goes as s and as t rise is an assumption that photo-consistency should
   /// check.
   bool sign_is_assumed = false;
+  /// kUnstructured: there while the pictures have not confirmed the poses that the input states.
+  std::optional<PoseReading> pose_reading;
   /// Views of the input that the adapter left out, with their places; the reason is in the notes.
   std::vector<View> left_out;
 

@@ -32,6 +32,10 @@ struct RangeEstimate {
 /// Throws Error(kBadInput) when nothing can be matched; --disparity is the way out then.
 RangeEstimate estimate_disparity_range(const LightField& light_field, const RunControl& control);
 
+/// Mean score of the strongest edges of the first view of a line or grid at their best hypothesis,
+/// 0 … 1; 0 without edges. For trials: a fifth of the pixels of estimate_disparity_range.
+double measure_agreement(const LightField& light_field, const RunControl& control);
+
 /// Gives the cameras of an unstructured light field that have none a range of inverse depths. A
 /// first bound comes from the cameras: what is seen by two of them at least. Within it the
 /// strongest edges of some views are matched, and every camera gets the range of the points that it
