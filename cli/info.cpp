@@ -48,7 +48,9 @@ DepthForecast forecast_depth(LightField& light_field, const InfoOptions& options
     DepthOptions depth = options.run.resolve(resolved, listening);
     resolved.sign_is_assumed = light_field.sign_is_assumed;  // what the input says
     light_field = std::move(resolved);
-    light_field.notes.insert(light_field.notes.end(), messages.begin(), messages.end());
+    for (const std::string& text : messages)
+      if (std::ranges::find(light_field.notes, text) == light_field.notes.end())
+        light_field.notes.push_back(text);
     depth.views = parse_views(options.views, light_field);
     return {forecast(light_field, depth, options.run.backend()), ""};
   } catch (const Error& error) {
