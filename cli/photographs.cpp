@@ -34,6 +34,7 @@ std::string record_of(const fs::path& photographs, const ColmapRunOptions& optio
     record += fs::absolute(folder).string() + "\n";
     for (const std::string& line : lines) record += line;
   }
+  if (options.max_size > 0) record += fmt::format("at most {} px\n", options.max_size);
   if (options.lens)
     record += fmt::format("{} {:.9g} {}\n", options.lens->model,
                           fmt::join(options.lens->params, " "), options.refine_lens);
@@ -124,6 +125,8 @@ LightField open_or_find_cameras(InputOptions input, const OutputOption& output,
   if (!why.empty()) control.message(why + "; their cameras are found with COLMAP");
   ColmapRunOptions options;
   options.masks = input.open.masks;
+  options.max_size = input.max_size;
+  options.strict = input.open.strict;
   const fs::path work = find_cameras(input.input, options, output, control);
   OpenOptions open;
   open.images = input.input;

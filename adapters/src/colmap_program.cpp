@@ -12,11 +12,13 @@
 #include <system_error>
 
 #include "colmap_folders.h"
+#include "colmap_pictures.h"
 #include "gigaray/adapters/atomic_output.h"
 #include "gigaray/adapters/child_process.h"
 #include "gigaray/adapters/input_file.h"
 #include "mask_folder.h"
 #include "picture_files.h"
+#include "posed_pictures.h"
 #include "text.h"
 
 namespace gigaray {
@@ -82,8 +84,11 @@ class Program {
   }
 
   [[noreturn]] void fail(const std::string& command, const std::string& problem) const {
-    throw Error(ErrorCode::kIo, "colmap " + command + " " + problem + " after " +
-                                    in_quotes(last_line_) + "; its log is " + log_path_.string());
+    const bool crashed = problem.find("signal") != std::string::npos;
+    throw Error(ErrorCode::kIo, "COLMAP " + std::string(crashed ? "crashed" : "failed") +
+                                    " in its " + command + " (" + problem +
+                                    (crashed ? "; too little memory?" : "") + "); its log is " +
+                                    log_path_.string());
   }
 
   /// The first of some names of an option that the command knows; they change between versions.
@@ -115,13 +120,58 @@ class Program {
   std::string last_line_;
 };
 
-Words names_of_photographs(const fs::path& folder) {
+std::string list_text(const Words& names) {
+  constexpr std::size_t kMost = 5;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(names.size(), kMost); ++i)
+    text += (i ? ", " : "") + names[i];
+  return names.size() > kMost ? text + " …" : text;
+}
+
+/// Counts features per photograph, of what COLMAP prints about each.
+class FeatureCounts {
+ public:
+  void look_at(const std::string& line) {
+    static const std::regex kName(R"(\bName:\s+(.+\S))"), kCount(R"(\bFeatures:\s+(\d{1,9}))");
+    std::smatch match;
+    if (std::regex_search(line, match, kName)) name_ = match[1];
+    if (std::regex_search(line, match, kCount) && std::stol(match[1]) > 0) found_.insert(name_);
+  }
+  /// Photographs without any. None when COLMAP prints it in another way.
+  Words without(const Words& names) const {
+    Words lacking;
+    if (name_.empty()) return lacking;
+    std::copy_if(names.begin(), names.end(), std::back_inserter(lacking),
+                 [&](const std::string& name) { return !found_.contains(name); });
+    return lacking;
+  }
+
+ private:
+  std::string name_;
+  std::set<std::string> found_;
+};
+
+/// Those that can be read. The others are named; with `strict` the first is an error.
+Words names_of_photographs(const fs::path& folder, bool strict, const RunControl& control) {
   Words names;
-  for (const fs::path& path : pictures_of(folder)) names.push_back(path.filename().string());
+  std::vector<PosedPicture> faulty;
+  for (const fs::path& path : pictures_of(folder)) {
+    PosedPicture picture;
+    picture.file = path;
+    picture.name = path.filename().string();
+    picture.fault = fault_of_picture(path, opening_limit());
+    if (picture.fault.empty())
+      names.push_back(picture.name);
+    else
+      faulty.push_back(std::move(picture));
+  }
+  if (!faulty.empty() && (strict || names.size() < 2))
+    throw Error(ErrorCode::kBadInput, faulty.front().fault);
   if (names.size() < 2)
     throw Error(ErrorCode::kBadInput, folder.string() + ": holds " +
                                           (names.empty() ? "no photograph" : "one photograph") +
                                           ", cameras need two or more to be found");
+  if (!faulty.empty()) control.message(left_out_text(faulty, names.size() + faulty.size()));
   return names;
 }
 
@@ -167,6 +217,16 @@ Words octave_arguments(const std::vector<PictureSpec>& specs) {
   return {"--SiftExtraction.first_octave", large ? "0" : "-1"};
 }
 
+/// COLMAP looks at pictures reduced like those that get depth, though never at tiny ones; its
+/// cameras are for the whole size.
+Words size_arguments(Program& program, int max_size) {
+  constexpr int kLeast = 320;
+  if (max_size == 0) return {};
+  return {program.known_option("feature_extractor", {"--SiftExtraction.max_image_size",
+                                                     "--FeatureExtraction.max_image_size"}),
+          std::to_string(std::max(max_size, kLeast))};
+}
+
 /// A folder with the names that COLMAP looks for, when there are masks.
 Words mask_arguments(const fs::path& masks, const Words& names, const fs::path& work) {
   if (masks.empty()) return {};
@@ -201,12 +261,24 @@ void prepare(const fs::path& work) {
                 work.string() + ": holds an earlier run of COLMAP; name another folder");
 }
 
-void find_features(Program& program, const fs::path& folder, const fs::path& work,
-                   const Words& names, const ColmapRunOptions& options) {
-  const double limit = opening_limit();
-  std::vector<PictureSpec> specs;
-  for (const std::string& name : names)
-    specs.push_back(read_picture_spec(folder / name, Orientation::kIgnored, limit));
+/// Does COLMAP find what it can compare? Says where it does not.
+void check_features(const FeatureCounts& features, const Words& names, const fs::path& folder,
+                    const RunControl& control) {
+  const Words without = features.without(names);
+  if (without.empty()) return;
+  const std::string which = std::to_string(without.size()) + " of " + std::to_string(names.size()) +
+                            " photographs (" + list_text(without) + ")";
+  if (names.size() < without.size() + 2)
+    throw Error(ErrorCode::kBadInput,
+                folder.string() + ": COLMAP finds nothing to compare in " + which +
+                    "; they are blank, blurred, dark or masked, or too small");
+  control.message("COLMAP finds nothing to compare in " + which);
+}
+
+void find_features(Program& program, const fs::path& folder, const ColmapPictures& pictures,
+                   const fs::path& work, const Words& names, const ColmapRunOptions& options,
+                   const RunControl& control) {
+  const std::vector<PictureSpec>& specs = pictures.specs();
   const Words cameras = camera_arguments(folder, names, specs, options.lens);
   const Words masks = mask_arguments(options.masks, names, work);
   std::string list;
@@ -216,15 +288,21 @@ void find_features(Program& program, const fs::path& folder, const fs::path& wor
   const bool many = names.size() > 40;
   const std::string on_gpu = program.known_option(
       "feature_extractor", {"--SiftExtraction.use_gpu", "--FeatureExtraction.use_gpu"});
+  FeatureCounts features;
   program.run_or_throw(
       "COLMAP: features",
-      joined({{"feature_extractor", "--database_path", work / "database.db", "--image_path", folder,
-               "--image_list_path", work / "photographs.txt", on_gpu, "0",
+      joined({{"feature_extractor", "--database_path", work / "database.db", "--image_path",
+               pictures.folder(), "--image_list_path", work / "photographs.txt", on_gpu, "0",
                "--SiftExtraction.max_num_features", many ? "4096" : "8192"},
               octave_arguments(specs),
+              size_arguments(program, options.max_size),
               cameras,
               masks}),
-      progress_in_brackets);
+      [&](const std::string& line) {
+        features.look_at(line);
+        return progress_in_brackets(line);
+      });
+  check_features(features, names, folder, control);
 }
 
 void match_features(Program& program, const fs::path& work, std::size_t num_pictures,
@@ -261,19 +339,11 @@ void find_cameras(Program& program, const fs::path& folder, const fs::path& work
   if (!problem.empty() && problem != "ended with status 1") program.fail("mapper", problem);
 }
 
-std::string list_text(const Words& names) {
-  constexpr std::size_t kMost = 5;
-  std::string text;
-  for (std::size_t i = 0; i < std::min(names.size(), kMost); ++i)
-    text += (i ? ", " : "") + names[i];
-  return names.size() > kMost ? text + " …" : text;
-}
-
 }  // namespace
 
 ColmapRun run_colmap(const fs::path& photographs, const fs::path& work,
                      const ColmapRunOptions& options, const RunControl& control) {
-  const Words names = names_of_photographs(photographs);
+  const Words names = names_of_photographs(photographs, options.strict, control);
   if (is_missing(kProgram))
     throw Error(ErrorCode::kIo,
                 "colmap: is not installed; install the package `colmap`, which finds the cameras "
@@ -283,9 +353,10 @@ ColmapRun run_colmap(const fs::path& photographs, const fs::path& work,
   result.log = work / kColmapLog;
   result.num_pictures = int(names.size());
   Program program(result.log, control);
-  find_features(program, photographs, work, names, options);
+  const ColmapPictures pictures(photographs, names, work / "copies", control);
+  find_features(program, photographs, pictures, work, names, options, control);
   match_features(program, work, names.size(), control);
-  find_cameras(program, photographs, work, names.size(), options);
+  find_cameras(program, pictures.folder(), work, names.size(), options);
 
   const std::vector<fs::path> models = colmap_models_below(work / "sparse");
   std::set<std::string> registered;

@@ -187,22 +187,6 @@ Camera camera_of(const PosedPicture& picture, const Source& source) {
   return camera;
 }
 
-/// "2 of 6 pictures are left out: b.png (is missing), d.png (…)"
-std::string left_out_text(const std::vector<PosedPicture>& faulty, std::size_t of) {
-  constexpr std::size_t kMostNamed = 5;
-  std::string text = std::to_string(faulty.size()) + " of " + std::to_string(of) +
-                     (faulty.size() == 1 ? " pictures is left out: " : " pictures are left out: ");
-  for (std::size_t i = 0; i < std::min(faulty.size(), kMostNamed); ++i) {
-    const std::string path = faulty[i].file.string() + ": ";
-    const std::string& fault = faulty[i].fault;
-    text += (i > 0 ? ", " : "") + faulty[i].name + " (" +
-            (fault.starts_with(path) ? fault.substr(path.size()) : fault) + ")";
-  }
-  if (faulty.size() > kMostNamed)
-    text += " and " + std::to_string(faulty.size() - kMostNamed) + " more";
-  return text;
-}
-
 /// Takes those that can't be used out of `pictures`, with a note.
 void leave_out_faulty(std::vector<PosedPicture>& pictures, bool strict, double limit,
                       std::vector<std::string>& notes) {
@@ -223,6 +207,21 @@ void leave_out_faulty(std::vector<PosedPicture>& pictures, bool strict, double l
 }
 
 }  // namespace
+
+std::string left_out_text(const std::vector<PosedPicture>& faulty, std::size_t of) {
+  constexpr std::size_t kMostNamed = 5;
+  std::string text = std::to_string(faulty.size()) + " of " + std::to_string(of) +
+                     (faulty.size() == 1 ? " pictures is left out: " : " pictures are left out: ");
+  for (std::size_t i = 0; i < std::min(faulty.size(), kMostNamed); ++i) {
+    const std::string path = faulty[i].file.string() + ": ";
+    const std::string& fault = faulty[i].fault;
+    text += (i > 0 ? ", " : "") + faulty[i].name + " (" +
+            (fault.starts_with(path) ? fault.substr(path.size()) : fault) + ")";
+  }
+  if (faulty.size() > kMostNamed)
+    text += " and " + std::to_string(faulty.size() - kMostNamed) + " more";
+  return text;
+}
 
 std::string fault_of_picture(const fs::path& file, double limit) {
   std::error_code ignored;

@@ -32,6 +32,9 @@ inline constexpr std::size_t kLeastPictures = 2;
 /// it can. Throws Error(kBadInput) when it takes more than `limit` bytes.
 std::string fault_of_picture(const std::filesystem::path& file, double limit);
 
+/// "2 of 6 pictures are left out: b.png (is missing), d.png (…)"
+std::string left_out_text(const std::vector<PosedPicture>& faulty, std::size_t of);
+
 /// An unstructured light field of photographs: undistorted to pinhole cameras of the same focal
 /// length and principal point when read, brought to a common size with the rest masked, placed by
 /// place_by_cameras. Reads headers only, and a picture that may be cut short. Those that can't be

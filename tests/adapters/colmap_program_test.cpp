@@ -110,6 +110,41 @@ TEST_F(ColmapProgram, PhotographsOfDifferentThingsAreRefusedWithAdvice) {
                [&] { run_colmap(folder / "photos", folder / "work", {}, control); });
 }
 
+TEST_F(ColmapProgram, WhatItCannotReadIsCopiedAndWhatNobodyCanIsLeftOut) {
+  photograph(5);
+  for (int i = 0; i < 4; ++i) {
+    const std::string name = (folder / "photos/p").string() + std::to_string(i) + ".png";
+    cv::Mat picture = cv::imread(name);
+    picture.convertTo(picture, CV_16U, 257);
+    cv::imwrite(name, picture);
+  }
+  std::filesystem::copy_file(folder / "photos/p4.png", folder / "photos/p5.png");
+  std::filesystem::resize_file(folder / "photos/p5.png", 2000);
+  std::string messages;
+  control.on_message = [&](const std::string& text) { messages += text + "\n"; };
+  ColmapRunOptions options;
+  options.lens = lens;
+  options.max_size = 350;
+  const ColmapRun run = run_colmap(folder / "photos", folder / "work", options, control);
+  EXPECT_EQ(run.num_registered, 5);
+  EXPECT_NE(messages.find("4 of 5 photographs are copied"), std::string::npos) << messages;
+  EXPECT_NE(messages.find("1 of 6 pictures is left out: p5.png"), std::string::npos) << messages;
+  EXPECT_NE(read("work/colmap.log").find("max_image_size 350"), std::string::npos);
+  EXPECT_FALSE(std::filesystem::exists(folder / "work/copies"));
+  OpenOptions open;
+  open.images = folder / "photos";
+  EXPECT_EQ(open_light_field(run.model, open).num_views(), 5);
+}
+
+TEST_F(ColmapProgram, PhotographsWithoutFeaturesAreNamedBeforeTheyAreCompared) {
+  photograph(1);
+  for (const char* name : {"photos/blank.png", "photos/white.png"})
+    save(name, cv::Mat(300, 400, CV_8UC3, cv::Scalar::all(200)));
+  testing_support::expect_error(
+      ErrorCode::kBadInput, {"nothing to compare in 2 of 3", "blank.png, white.png"},
+      [&] { run_colmap(folder / "photos", folder / "work", {}, control); });
+}
+
 TEST_F(ColmapProgram, CancellingEndsTheProgramSoon) {
   photograph(3);
   control.on_progress = [&](const std::string& stage, double, double) {
@@ -141,8 +176,14 @@ TEST_F(ColmapProgram, WhatIsMissingIsNamedBeforeAnythingRuns) {
   options = {};
   options.masks = folder / "nowhere";
   refused(ErrorCode::kBadInput, "nowhere", options);
+  options = {};
   write("photos/c.png", "no picture");
-  refused(ErrorCode::kBadInput, "c.png");
+  options.strict = true;
+  refused(ErrorCode::kBadInput, "c.png", options);
+  std::filesystem::remove(folder / "photos/b.png");
+  refused(ErrorCode::kBadInput, "c.png");  // one is too few
+  save("photos/b.png");
+  std::filesystem::remove(folder / "photos/c.png");
 
   const std::string path = getenv("PATH");
   setenv("PATH", folder.c_str(), 1);

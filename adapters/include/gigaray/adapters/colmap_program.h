@@ -18,6 +18,9 @@ struct ColmapRunOptions {
   /// Known intrinsics of all photographs, for their size. Empty: found with the poses, from EXIF
   /// and a guess.
   std::optional<Lens> lens;
+  /// px of the longer side that features are looked for in. 0: COLMAP's own choice.
+  int max_size = 0;
+  bool strict = false;  ///< a photograph that can't be read is an error, else it is left out
   /// Is a known lens refined all the same?
   bool refine_lens = false;
 };
@@ -37,16 +40,17 @@ struct ColmapRun {
 /// Finds the cameras of a folder of unordered photographs with the program `colmap` (3.8 – 3.12):
 /// SIFT on the CPU, matches of all pairs (of neighbours by name when there are more than a hundred
 /// photographs), incremental mapping. One camera is shared when all photographs have one size and
-/// EXIF names one camera and focal length, or none at all. No display is needed.
+/// EXIF names one camera and focal length, or none at all. What COLMAP can't read (HEIF, 16 bit …)
+/// is copied for it. No display is needed.
 ///
 /// work: a folder for the database, the models and the log (colmap.log); created, and kept whatever
 /// happens. Progress in three stages; what was left out goes to control.on_message. A cancelled run
 /// kills the program and all that it started.
 ///
 /// Throws Error(kIo) when the program is not installed (package `colmap`) or fails, naming the log;
-/// Error(kBadInput) when there are fewer than two photographs or fewer than two got a camera, with
-/// what to try; Error(kInvalidArgument) when the lens is for another size, or `work` holds an
-/// earlier run; Error(kCancelled).
+/// Error(kBadInput) when there are fewer than two photographs that can be read or fewer than two
+/// got a camera, with what to try, or has features; Error(kInvalidArgument) when the lens is for
+/// another size, or `work` holds an earlier run; Error(kCancelled).
 ColmapRun run_colmap(const std::filesystem::path& photographs, const std::filesystem::path& work,
                      const ColmapRunOptions& options, const RunControl& control);
 
