@@ -11,6 +11,7 @@
 #include "mask_folder.h"
 #include "picture_folder.h"
 #include "picture_lookup.h"
+#include "points_beside.h"
 #include "posed_pictures.h"
 #include "readers.h"
 #include "text.h"
@@ -191,6 +192,9 @@ LightField open_model(FoundColmapModel found, const OpenOptions& options,
   light_field.notes.insert(light_field.notes.begin(), notes.begin(), notes.end());
   if (!shows_its_points(found.model))
     light_field.pose_reading = PoseReading{name_of(convention), is_mirrored};
+  if (found.model.points.empty())
+    if (const fs::path cloud = points_beside(found.folder); !cloud.empty())
+      take_range_of_points(light_field, cloud, options.memory_bytes);
   return light_field;
 }
 

@@ -12,6 +12,7 @@
 #include "picture_files.h"
 #include "picture_folder.h"
 #include "picture_lookup.h"
+#include "points_beside.h"
 #include "posed_pictures.h"
 #include "view_names.h"
 
@@ -84,7 +85,7 @@ bool find_mirrored(std::vector<StatedView>& views, const std::string& where,
 
 LightField open_stated_views(std::vector<StatedView> views, const fs::path& file,
                              const std::vector<fs::path>& folders, const OpenOptions& options,
-                             const std::string& format) {
+                             const std::string& format, const std::string& points) {
   if (views.size() < 2)
     throw Error(ErrorCode::kBadInput, file.string() + ": states " +
                                           (views.empty() ? "no camera" : "only one camera") +
@@ -136,6 +137,10 @@ LightField open_stated_views(std::vector<StatedView> views, const fs::path& file
       posed_light_field(std::move(pictures), format, options.memory_bytes, options.strict);
   light_field.pose_reading = PoseReading{name_of(views.front().convention), is_mirrored};
   light_field.notes.insert(light_field.notes.begin(), notes.begin(), notes.end());
+  std::error_code ignored;
+  const fs::path beside = fs::is_directory(file, ignored) ? file : file.parent_path();
+  if (const fs::path cloud = points_beside(beside.empty() ? "." : beside, points); !cloud.empty())
+    take_range_of_points(light_field, cloud, options.memory_bytes);
   return light_field;
 }
 

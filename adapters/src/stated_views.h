@@ -49,9 +49,11 @@ void set_pose(StatedView& view, const StatedPose& matrix, const PoseConvention& 
               const std::string& where);
 
 /// Opens the pictures of views that a file states, every one with `picture`. folders: where they
-/// may lie, unless options.images says it. Throws Error(kBadInput).
+/// may lie, unless options.images says it. points: relative path of a file of points of the scene,
+/// if one is stated (points_beside). Throws Error(kBadInput).
 LightField open_stated_views(std::vector<StatedView> views, const std::filesystem::path& file,
                              const std::vector<std::filesystem::path>& folders,
-                             const OpenOptions& options, const std::string& format);
+                             const OpenOptions& options, const std::string& format,
+                             const std::string& points = "");
 
 }  // namespace gigaray

@@ -248,6 +248,14 @@ std::string with_null_for_nan(std::string_view text) {
   return valid;
 }
 
+/// The file of points that nerfstudio writes beside the cameras; empty: none.
+std::string points_stated_in(const std::string& text) {
+  const json root = json::parse(text, nullptr, false);
+  if (!root.is_object()) return {};
+  const auto found = root.find("ply_file_path");
+  return found != root.end() && found->is_string() ? found->get<std::string>() : std::string();
+}
+
 class TransformsJsonReader : public Reader {
  public:
   std::string name() const override { return kName; }
@@ -262,9 +270,10 @@ class TransformsJsonReader : public Reader {
     refuse_direction(options, "transforms.json states");
     const std::vector<fs::path> files = files_of_cameras(input);
     const fs::path &file = files.front(), folder = file.parent_path();
-    LightField light_field = open_stated_views(
-        parse_transforms_json(read_json_text(file, options.memory_bytes), file.string()), file,
-        {folder, folder / "images"}, options, kName);
+    const std::string text = read_json_text(file, options.memory_bytes);
+    LightField light_field =
+        open_stated_views(parse_transforms_json(text, file.string()), file,
+                          {folder, folder / "images"}, options, kName, points_stated_in(text));
     std::string others;
     for (std::size_t i = 1; i < files.size(); ++i)
       others += (others.empty() ? "" : ", ") + files[i].filename().string();

@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 /// Names of files of cameras, lower case, and the format whose reader takes them.
 struct CameraFiles {
   std::string_view begin, end;
-  std::string_view format;  ///< empty: none
+  std::string_view format;
 };
 constexpr std::array kCameraFiles{
     CameraFiles{"transforms", ".json", "transforms.json"},
@@ -29,14 +29,39 @@ constexpr std::array kCameraFiles{
     CameraFiles{"", "_par.txt", "Middlebury multi-view"},
     CameraFiles{"", ".camera", "Strecha .camera files"},
     CameraFiles{"", "_cam.txt", "MVSNet cameras"},
-    CameraFiles{"cameras", ".json", ""},
-    CameraFiles{"cameras", ".npz", ""},
-    CameraFiles{"cameras", ".xml", ""},
 };
 
-bool is_unused(const CameraFiles& kind, const std::string& name, const std::string& format) {
+bool is_of(const CameraFiles& kind, const std::string& name) {
   return name.starts_with(kind.begin) && name.ends_with(kind.end) &&
-         (!kind.end.empty() || name == kind.begin) && kind.format != format;
+         (!kind.end.empty() || name == kind.begin);
+}
+
+/// Names that others give to cameras: OpenMVG, OpenSfM, Bundler, VisualSFM, Meshroom, Agisoft,
+/// NSVF, scanners and own calibrations.
+bool sounds_like_cameras(const std::string& name) {
+  const fs::path path(name);
+  const std::string stem = path.stem().string(), extension = path.extension().string();
+  for (const char* known : {".nvm", ".sfm", ".p4d", ".opk"})
+    if (extension == known) return true;
+  for (const char* known : {"bundle.out", "bundle.rd.out", "sfm_data.json", "reconstruction.json",
+                            "k.txt", "traj.txt", "trajectory.txt", "trajectory.log"})
+    if (name == known) return true;
+  constexpr std::array kText{".json", ".txt", ".npz", ".npy",  ".xml", ".yml",
+                             ".yaml", ".csv", ".log", ".toml", ".mat", ".dat"};
+  if (std::ranges::find(kText, extension) == kText.end()) return false;
+  for (const char* word : {"camera", "cams", "pose", "calib", "intrinsic", "extrinsic"})
+    if (stem.find(word) != std::string::npos) return true;
+  return false;
+}
+
+bool is_unused(const std::string& name, const std::string& format) {
+  bool is_known = false;
+  for (const CameraFiles& kind : kCameraFiles) {
+    if (!is_of(kind, name)) continue;
+    if (kind.format == format) return false;
+    is_known = true;
+  }
+  return is_known || sounds_like_cameras(name);
 }
 
 /// Does a folder with such a name hold cameras?
@@ -55,10 +80,7 @@ void add_unused(const fs::path& folder, const std::string& format, std::vector<f
     const std::string name = lower(entry->path().filename().string());
     const bool is_there = entry->is_directory(ignored)
                               ? holds_cameras(entry->path(), name, format)
-                              : entry->is_regular_file(ignored) &&
-                                    std::ranges::any_of(kCameraFiles, [&](const CameraFiles& kind) {
-                                      return is_unused(kind, name, format);
-                                    });
+                              : entry->is_regular_file(ignored) && is_unused(name, format);
     if (is_there) found.push_back(entry->path().lexically_normal());
   }
 }
@@ -70,9 +92,8 @@ std::string unused_cameras(const fs::path& input, const std::string& format) {
   if (!fs::is_directory(input, ignored)) return {};
   std::vector<fs::path> found;
   add_unused(input, format, found);
-  const bool has_cameras = std::ranges::any_of(kCameraFiles, [&](const CameraFiles& kind) {
-    return !kind.format.empty() && kind.format == format;
-  });
+  const bool has_cameras = std::ranges::any_of(
+      kCameraFiles, [&](const CameraFiles& kind) { return kind.format == format; });
   // An input with cameras of its own has no need of others around it.
   if (!has_cameras) add_unused(input / "..", format, found);
   if (found.empty()) return {};

@@ -101,9 +101,10 @@ TEST_F(PlainPhotographs, FilesThatLookLikeCamerasAreNamed) {
   for (const char* name : {"in/images/p1.png", "in/images/p2.png"}) save(name);
   const std::filesystem::path images = folder / "in/images";
   EXPECT_EQ(note(images), "");
-  for (const char* name :
-       {"transforms.json", "Transforms_val.json", "cameras.txt", "images.txt", "calib.txt",
-        "poses_bounds.npy", "x_par.txt", "p1.png.camera", "p1_cam.txt", "cameras_sphere.npz"})
+  for (const char* name : {"transforms.json", "Transforms_val.json", "cameras.txt", "images.txt",
+                           "calib.txt", "poses_bounds.npy", "x_par.txt", "p1.png.camera",
+                           "p1_cam.txt", "cameras_sphere.npz", "cameras.json", "sfm_data.json",
+                           "Poses.txt", "camera_intrinsics.yaml", "bundle.out", "my.nvm"})
     for (const std::filesystem::path& place : {folder / "in", images}) {
       std::ofstream(place / name) << "?";
       // In the folder of the pictures some are taken for what they claim to be.
