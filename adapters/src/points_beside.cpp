@@ -38,7 +38,7 @@ void take_range_of_points(LightField& light_field, const fs::path& file, double 
     return;
   std::vector<Eigen::Vector3d> points;
   try {
-    constexpr double kBytesPerByte = 4;  // the bytes, and the points
+    constexpr double kBytesPerByte = 9;  // itself, and a point for three of the least
     points = parse_ply_points(read_bytes(file, opening_limit(memory_bytes) / kBytesPerByte),
                               file.string());
   } catch (const Error& problem) {

@@ -19,7 +19,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       GIGARAY_CHECK(described.files.size() == described.light_field.views.size());
     } else {
       for (const auto& view : gigaray::parse_transforms_json(input.bytes, "fuzz"))
-        GIGARAY_CHECK(view.rotation.allFinite() && view.translation.allFinite());
+        GIGARAY_CHECK(view.pose.rotation.allFinite() && view.pose.translation.allFinite());
     }
   });
   return 0;

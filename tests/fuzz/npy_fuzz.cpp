@@ -13,7 +13,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       GIGARAY_CHECK(matrix.values.size() == std::size_t(matrix.rows) * matrix.columns);
     } else {
       for (const auto& view : gigaray::parse_poses_bounds(input.bytes, "fuzz"))
-        GIGARAY_CHECK(view.lens.width > 0 && view.rotation.allFinite());
+        GIGARAY_CHECK(view.lens.width > 0 && view.pose.rotation.allFinite());
     }
   });
   return 0;

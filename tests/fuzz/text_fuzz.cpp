@@ -18,7 +18,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       GIGARAY_CHECK(cameras >= 1 && cameras <= 1000);
     } else if (input.choice == 1) {
       for (const auto& view : gigaray::parse_middlebury_par(input.bytes, "fuzz"))
-        GIGARAY_CHECK(!view.picture.empty() && view.rotation.allFinite());
+        GIGARAY_CHECK(!view.picture.empty() && view.pose.rotation.allFinite());
     } else if (input.choice == 3) {
       const auto view = gigaray::parse_mvsnet_camera(input.bytes, "fuzz");
       GIGARAY_CHECK(view.inverse_depth && view.translation.allFinite());
