@@ -85,7 +85,9 @@ std::string option_of(const ViewLayout& layout) {
 
 bool settle_layout(const InputOptions& input, LightField& light_field, const RunControl& control) {
   const auto numbering = numbering_of(input, light_field);
-  if (!numbering) return false;
+  // Of what is stated, rows and columns may be swapped.
+  if (!numbering || (numbering->is_stated && numbering->layout.rows == numbering->layout.columns))
+    return false;
   const std::vector<LayoutTrial> trials =
       try_layouts(light_field, numbering->cells, numbering->num_cells, control);
   if (trials.empty()) return false;

@@ -161,7 +161,9 @@ void check_poses(LightField& light_field, bool is_stated, const RunControl& cont
             name_of(agreement.best);
   else
     what += ", and no other convention does better than " + percent(agreement.share_of_best) +
-            "; are they of these pictures, in their order, with the right focal length?";
+            "; are they of these pictures, in their order, with the right focal length? "
+            "(--convention " +
+            reading + " takes them all the same)";
   const bool is_sure =
       other_fits || (agreement.share_of_best < kFitsNowhere && agreement.num_pairs >= kLeastPairs);
   if (is_sure && !is_stated) throw Error(ErrorCode::kBadInput, what);
