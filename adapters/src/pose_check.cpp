@@ -6,6 +6,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <utility>
 #include <vector>
@@ -15,7 +16,8 @@
 namespace gigaray {
 namespace {
 
-constexpr int kMostPairs = 4, kMostTrials = 10;
+constexpr std::size_t kMostPairs = 4;
+constexpr int kMostTrials = 10;
 
 struct Pair {
   int a, b;
@@ -35,15 +37,11 @@ bool moves(Pair& pair) {
   return motion(*middle) > kLeastMotion * pair.px;
 }
 
-/// Pictures that follow each other, spread over the capture, as far as features match. Poses that
-/// may be wrong can't tell which overlap.
+/// Pairs of pictures that follow each other, or stand a little farther apart where hardly anything
+/// moves, spread over the capture. Poses that may be wrong can't tell which overlap.
 std::vector<Pair> find_pairs(const LightField& light_field, const RunControl& control) {
   const int last = light_field.num_views() - 1;
-  std::vector<int> firsts;
-  for (int i = 0; i < std::min(kMostTrials, last); ++i)
-    firsts.push_back(int((2L * i + 1) * last / (2L * std::min(kMostTrials, last))));
-  // The middle ones of each half first.
-  std::stable_sort(firsts.begin(), firsts.end(), [&](int a, int b) { return a % 3 < b % 3; });
+  const int trials = std::min(kMostTrials, last);
   std::map<int, ViewFeatures> known;
   const auto features = [&](int view) -> const ViewFeatures& {
     const auto found = known.find(view);
@@ -51,14 +49,22 @@ std::vector<Pair> find_pairs(const LightField& light_field, const RunControl& co
     return known.emplace(view, features_of(light_field, view)).first->second;
   };
   std::vector<Pair> pairs;
-  for (const int first : firsts) {
+  for (int i = 0; i < trials && pairs.size() < kMostPairs; ++i) {
+    // Every second place first: the first pairs are from the whole capture.
+    const int place = 2 * i < trials ? 2 * i : 2 * (i - (trials + 1) / 2) + 1;
+    const int first = int((2L * place + 1) * last / (2L * trials));
     control.progress("poses", double(pairs.size()), kMostPairs);
-    control.throw_if_cancelled();
-    Pair pair{first, first + 1, {}, 1};
-    pair.matches = matches_of(features(pair.a), features(pair.b));
-    pair.px = 1 / std::min(features(pair.a).scale, features(pair.b).scale);
-    if (moves(pair)) pairs.push_back(std::move(pair));
-    if (pairs.size() == kMostPairs) break;
+    for (const int distance : {1, 3, 9}) {
+      control.throw_if_cancelled();
+      if (first + distance > last) break;
+      Pair pair{first, first + distance, {}, 1};
+      pair.matches = matches_of(features(pair.a), features(pair.b));
+      pair.px = 1 / std::min(features(pair.a).scale, features(pair.b).scale);
+      if (pair.matches.empty()) break;
+      if (!moves(pair)) continue;
+      pairs.push_back(std::move(pair));
+      break;
+    }
   }
   return pairs;
 }
