@@ -12,6 +12,7 @@
 #include <system_error>
 
 #include "colmap_folders.h"
+#include "file_type.h"
 #include "gigaray/adapters/atomic_output.h"
 #include "gigaray/adapters/child_process.h"
 #include "gigaray/adapters/input_file.h"
@@ -118,10 +119,13 @@ class Program {
 Words names_of_photographs(const fs::path& folder) {
   Words names;
   for (const fs::path& path : pictures_of(folder)) names.push_back(path.filename().string());
-  if (names.size() < 2)
+  if (names.size() < 2) {
+    const std::string why = why_no_pictures(folder);
     throw Error(ErrorCode::kBadInput, folder.string() + ": holds " +
                                           (names.empty() ? "no photograph" : "one photograph") +
-                                          ", cameras need two or more to be found");
+                                          ", cameras need two or more to be found" +
+                                          (why.empty() ? "" : "; " + why));
+  }
   return names;
 }
 
