@@ -36,9 +36,8 @@ std::optional<Pair> pair_in(const fs::path& input) {
   for (const fs::path& path : files_of(input)) {
     const std::string name = lower(path.filename().string()), stem = lower(path.stem().string());
     if (name == "calib.txt") pair.calibration = path;
-    if (!is_picture_name(path)) continue;
-    if (stem == "im0") pair.left = path;
-    if (stem == "im1") pair.right = path;
+    if ((stem != "im0" && stem != "im1") || !is_picture(path)) continue;
+    (stem == "im0" ? pair.left : pair.right) = path;
   }
   if (pair.left.empty() || pair.right.empty() || pair.calibration.empty()) return {};
   constexpr std::uintmax_t kMostBytes = 1 << 16;

@@ -13,6 +13,7 @@
 
 #include "colmap_folders.h"
 #include "colmap_pictures.h"
+#include "file_type.h"
 #include "gigaray/adapters/atomic_output.h"
 #include "gigaray/adapters/child_process.h"
 #include "gigaray/adapters/input_file.h"
@@ -167,10 +168,13 @@ Words names_of_photographs(const fs::path& folder, bool strict, const RunControl
   }
   if (!faulty.empty() && (strict || names.size() < 2))
     throw Error(ErrorCode::kBadInput, faulty.front().fault);
-  if (names.size() < 2)
+  if (names.size() < 2) {
+    const std::string why = why_no_pictures(folder);
     throw Error(ErrorCode::kBadInput, folder.string() + ": holds " +
                                           (names.empty() ? "no photograph" : "one photograph") +
-                                          ", cameras need two or more to be found");
+                                          ", cameras need two or more to be found" +
+                                          (why.empty() ? "" : "; " + why));
+  }
   if (!faulty.empty()) control.message(left_out_text(faulty, names.size() + faulty.size()));
   return names;
 }

@@ -24,13 +24,16 @@
 namespace gigaray {
 namespace {
 
-// Row v starts at the pixel (0, v) of a window whose first pixel is (left, top).
-Imf::FrameBuffer frame_buffer(FloatMap& map, const char* channel, int left, int top) {
-  const std::size_t row = sizeof(float) * map.width();
-  char* origin = reinterpret_cast<char*>(map.data()) - std::ptrdiff_t(sizeof(float)) * left -
+// Interleaved; row v starts at the pixel (0, v) of a window whose first pixel is (left, top).
+Imf::FrameBuffer frame_buffer(Image<float>& image, const std::vector<std::string>& channels,
+                              int left, int top) {
+  const std::size_t pixel = sizeof(float) * std::size_t(image.channels());
+  const std::size_t row = pixel * std::size_t(image.width());
+  char* origin = reinterpret_cast<char*>(image.data()) - std::ptrdiff_t(pixel) * left -
                  std::ptrdiff_t(row) * top;
   Imf::FrameBuffer buffer;
-  buffer.insert(channel, Imf::Slice(Imf::FLOAT, origin, sizeof(float), row));
+  for (std::size_t c = 0; c < channels.size(); ++c)
+    buffer.insert(channels[c], Imf::Slice(Imf::FLOAT, origin + sizeof(float) * c, pixel, row));
   return buffer;
 }
 
@@ -55,36 +58,48 @@ class Bytes : public Imf::IStream {
 
 }  // namespace
 
-FloatMap parse_exr(const std::string& bytes, const std::string& where, double limit) {
+Image<float> parse_exr_channels(const std::string& bytes, const ExrHeader& header,
+                                const std::vector<std::string>& channels, const std::string& where,
+                                double limit) {
   const auto bad = [&](const std::string& what) {
     return Error(ErrorCode::kBadInput, where + ": " + what);
   };
-  const ExrHeader stated = parse_exr_header(bytes, bytes.size(), where);
-  // The map, and a chunk as it is packed, unpacked and sorted.
-  hold_against_limit(
-      where, "states " + size_text(stated.width, stated.height) + " px",
-      sizeof(float) * (double(stated.width) * stated.height + 4 * stated.chunk_pixels) +
-          double(bytes.size()),
-      limit);
+  GIGARAY_CHECK(!channels.empty());
+  // The values, and a chunk of all channels as it is packed, unpacked and sorted.
+  hold_against_limit(where, "states " + size_text(header.width, header.height) + " px",
+                     sizeof(float) * (double(header.width) * header.height * channels.size() +
+                                      4 * header.chunk_pixels * header.channels.size()) +
+                         double(bytes.size()),
+                     limit);
   try {
     Bytes stream(bytes, where);
     Imf::InputFile file(stream, 0);
-    const Imf::ChannelList& channels = file.header().channels();
-    const auto first = channels.begin();
     const Imath::Box2i window = file.header().dataWindow();
-    if (first == channels.end() || window.max.x - window.min.x + 1 != stated.width ||
-        window.max.y - window.min.y + 1 != stated.height)
+    if (window.max.x - window.min.x + 1 != header.width ||
+        window.max.y - window.min.y + 1 != header.height)
       throw bad("is damaged in its header");
-    FloatMap map(stated.width, stated.height);
-    file.setFrameBuffer(frame_buffer(map, first.name(), window.min.x, window.min.y));
+    for (const std::string& name : channels) {
+      const Imf::Channel* channel = file.header().channels().findChannel(name);
+      if (!channel || channel->xSampling != 1 || channel->ySampling != 1)
+        throw bad("is damaged in its header");
+    }
+    Image<float> values(header.width, header.height, int(channels.size()));
+    file.setFrameBuffer(frame_buffer(values, channels, window.min.x, window.min.y));
     file.readPixels(window.min.y, window.max.y);
-    return map;
+    return values;
   } catch (const Error&) {
     throw;
   } catch (const std::exception& error) {
     const std::string reason = error.what();
     throw bad("is damaged or no OpenEXR file (" + reason.substr(0, reason.find('\n')) + ")");
   }
+}
+
+FloatMap parse_exr(const std::string& bytes, const std::string& where, double limit) {
+  const ExrHeader header = parse_exr_header(bytes, bytes.size(), where);
+  if (header.channels.size() != 1)
+    throw Error(ErrorCode::kBadInput, where + ": has not one channel, as a map has");
+  return parse_exr_channels(bytes, header, {header.channels.front().name}, where, limit);
 }
 
 FloatMap read_exr(const std::filesystem::path& path) {
@@ -106,7 +121,7 @@ void write_exr(const std::filesystem::path& path, const FloatMap& map) {
     header.channels().insert("Y", Imf::Channel(Imf::FLOAT));
     Imf::OutputFile file(stream, header);
     FloatMap copy = map;  // the library takes pixels that it could change
-    file.setFrameBuffer(frame_buffer(copy, "Y", 0, 0));
+    file.setFrameBuffer(frame_buffer(copy, {"Y"}, 0, 0));
     file.writePixels(map.height());
   }  // writes the table of rows
   write_file_atomically(path, stream.str());

@@ -4,6 +4,7 @@
 // version and flags, attributes (name, type, size, value) up to an empty name, offsets of chunks.
 #include <cstring>
 #include <optional>
+#include <utility>
 
 #include "gigaray/adapters/input_file.h"
 #include "map_headers.h"
@@ -86,16 +87,16 @@ std::size_t fixed_size(std::string_view type) {
   return 0;
 }
 
-int count_channels(std::string_view list, const std::string& where) {
-  constexpr std::size_t kEntry = 16;  // type, linear, sampling
+std::vector<ExrChannel> channels_of(std::string_view list, const std::string& where) {
   Reader reader(list, where);
-  int count = 0;
-  while (!reader.word().empty()) {
-    reader.take(kEntry);
-    ++count;
+  std::vector<ExrChannel> channels;
+  for (std::string_view name = reader.word(); !name.empty(); name = reader.word()) {
+    reader.take(8);  // type, is it linear
+    const auto every_u = reader.get<std::int32_t>(), every_v = reader.get<std::int32_t>();
+    channels.push_back({std::string(name), every_u == 1 && every_v == 1});
   }
   if (reader.rest() > 0) reader.bad("is damaged in its header");
-  return count;
+  return channels;
 }
 
 /// The library reads values of some types without a look at their stated size: then what follows is
@@ -104,7 +105,7 @@ void check_size(std::string_view type, std::string_view value, const std::string
   Reader reader(value, where);
   if (const std::size_t size = fixed_size(type); size > 0 && value.size() != size)
     reader.bad("is damaged in its header");
-  if (type == "chlist") count_channels(value, where);
+  if (type == "chlist") channels_of(value, where);
   if (type == "preview") {
     const double width = reader.get<std::uint32_t>(), height = reader.get<std::uint32_t>();
     if (4 * width * height != double(reader.rest())) reader.bad("is damaged in its header");
@@ -119,7 +120,8 @@ ExrHeader parse_exr_header(std::string_view bytes, std::uint64_t file_size,
   if (bytes.size() < 8 || file.get<std::uint32_t>() != kMagic)
     file.bad("is damaged or no OpenEXR file");
   const auto flags = file.get<std::uint32_t>();
-  if (flags & (kDeep | kSeveralParts)) file.bad("has several parts or depths, a map has one");
+  if (flags & (kDeep | kSeveralParts))
+    file.bad("has several parts or depths, which are not read; save it as one flat picture");
 
   struct Window {
     std::int32_t left, top, right, bottom;
@@ -127,9 +129,10 @@ ExrHeader parse_exr_header(std::string_view bytes, std::uint64_t file_size,
   struct Tile {
     std::uint32_t width, height;
   };
-  std::optional<Window> window;
+  std::optional<Window> window, shown;
   std::optional<Tile> tile;
-  int channels = 0, compression = 0;
+  std::vector<ExrChannel> channels;
+  int compression = 0;
   for (std::string_view name = file.word(); !name.empty(); name = file.word()) {
     const std::string_view type = file.word();
     const auto size = file.get<std::int32_t>();
@@ -138,18 +141,25 @@ ExrHeader parse_exr_header(std::string_view bytes, std::uint64_t file_size,
     check_size(type, value, where);
     Reader attribute(value, where);
     if (name == "dataWindow") window = attribute.get<Window>();
-    if (name == "channels") channels = count_channels(value, where);
+    if (name == "displayWindow") shown = attribute.get<Window>();
+    if (name == "channels") channels = channels_of(value, where);
     if (name == "compression") compression = attribute.get<std::uint8_t>();
     if (name == "tiles") tile = attribute.get<Tile>();
   }
-  if (channels != 1) file.bad("has not one channel, as a map has");
   if (!window) file.bad("has no window of data");
+  const auto check_window = [&](const Window& stated) {
+    const std::int64_t width = std::int64_t(stated.right) - stated.left + 1;
+    const std::int64_t height = std::int64_t(stated.bottom) - stated.top + 1;
+    if (width < 1 || height < 1 || width > kMostSize || height > kMostSize ||
+        std::abs(std::int64_t(stated.left)) > kMostSize ||
+        std::abs(std::int64_t(stated.top)) > kMostSize)
+      file.bad("states no valid size");
+  };
+  check_window(*window);
+  if (!shown) shown = window;
+  check_window(*shown);
   const std::int64_t width = std::int64_t(window->right) - window->left + 1;
   const std::int64_t height = std::int64_t(window->bottom) - window->top + 1;
-  if (width < 1 || height < 1 || width > kMostSize || height > kMostSize ||
-      std::abs(std::int64_t(window->left)) > kMostSize ||
-      std::abs(std::int64_t(window->top)) > kMostSize)
-    file.bad("states no valid size");
 
   const bool tiled = (flags & kTiled) != 0;
   if (tiled && !tile) file.bad("is damaged: it has tiles but no size of them");
@@ -160,6 +170,13 @@ ExrHeader parse_exr_header(std::string_view bytes, std::uint64_t file_size,
   ExrHeader header;
   header.width = int(width);
   header.height = int(height);
+  header.left = window->left;
+  header.top = window->top;
+  header.shown_left = shown->left;
+  header.shown_top = shown->top;
+  header.shown_width = shown->right - shown->left + 1;
+  header.shown_height = shown->bottom - shown->top + 1;
+  header.channels = std::move(channels);
   header.chunk_pixels = double(chunk_width) * double(chunk_height);
   const double chunks = double((width + chunk_width - 1) / chunk_width) *
                         double((height + chunk_height - 1) / chunk_height);

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "camera_position.h"
+#include "file_type.h"
 #include "gigaray/adapters/input_file.h"
 #include "gigaray/adapters/photographs.h"
 #include "numbered_names.h"
@@ -92,20 +93,28 @@ class ImageSequenceReader : public Reader {
 
   ProbeResult probe(const fs::path& input) const override {
     std::error_code ignored;
-    if (!fs::is_directory(input, ignored))
-      return {0, is_picture_name(input) ? "is one picture; name the folder of the light field, or "
-                                          "state the views of a lenslet picture with --lenslet"
-                                        : "is no light field that this program knows"};
-    if (pictures_of(input).empty())
-      return {0, "no pictures in this folder (folders inside it are not searched)"};
+    if (!fs::is_directory(input, ignored)) {
+      const std::string why = why_unread(input);
+      if (!why.empty()) return {0, why};
+      return {0, is_picture(input) ? "is one picture; name the folder of the light field, or "
+                                     "state the views of a lenslet picture with --lenslet"
+                                   : "is no light field that this program knows"};
+    }
+    if (pictures_of(input).empty()) {
+      const std::string why = why_no_pictures(input);
+      return {0, "no pictures in this folder" +
+                     (why.empty() ? " (folders inside it are not searched)" : ": " + why)};
+    }
     return {10, ""};
   }
 
   LightField open(const fs::path& input, const OpenOptions& options) const override {
     const std::vector<fs::path> pictures = pictures_of(input);
-    if (pictures.size() < 2)
+    if (pictures.size() < 2) {
+      const std::string why = why_no_pictures(input);
       bad(input, "only one picture, " + pictures.front().filename().string() +
-                     "; a light field needs two or more");
+                     "; a light field needs two or more" + (why.empty() ? "" : "; " + why));
+    }
     if (options.grid.rows > 0) return open_grid(input, pictures, options);
     return options.positions.empty() ? open_numbered(input, pictures, options)
                                      : open_placed(pictures, options);

@@ -7,6 +7,7 @@
 #include "gigaray/adapters/input_file.h"
 #include "gigaray/adapters/pictures.h"
 #include "picture_files.h"
+#include "picture_values.h"
 #include "readers.h"
 #include "text.h"
 #include "view_grid.h"
@@ -28,9 +29,8 @@ class LensletReader : public Reader {
 
   ProbeResult probe(const fs::path& input) const override {
     std::error_code ignored;
-    return {
-        is_picture_name(input) && is_eslf(input) && fs::is_regular_file(input, ignored) ? 40 : 0,
-        ""};
+    return {is_eslf(input) && fs::is_regular_file(input, ignored) && is_picture(input) ? 40 : 0,
+            ""};
   }
 
   LightField open(const fs::path& input, const OpenOptions& options) const override {
@@ -44,19 +44,20 @@ class LensletReader : public Reader {
 
     // The picture, and its views beside it.
     const double limit = opening_limit(options.memory_bytes);
-    const PictureSpec spec = read_picture_spec(input, Orientation::kApplied, limit);
+    PictureSpec spec = read_picture_spec(input, Orientation::kApplied, limit);
     constexpr double kBytesPerPixel = 6 + 6;
     hold_against_limit(input.string(), "states " + size_text(spec.width, spec.height) + " px",
                        kBytesPerPixel * spec.width * spec.height, limit);
-    int bit_depth = 8;
-    const Image<std::uint16_t> all = read_picture(input, &bit_depth, limit);
+    LightField light_field;
+    const ValueScale scale = scale_of({input}, {spec}, limit, light_field.notes);
+    const Image<std::uint16_t> all =
+        decode_picture(input, Orientation::kApplied, spec, limit, scale);
     if (all.width() % columns != 0 || all.height() % rows != 0)
       throw Error(ErrorCode::kBadInput, input.string() + ": " + std::to_string(all.width()) + "×" +
                                             std::to_string(all.height()) +
                                             " pixels can't be divided into " +
                                             std::to_string(columns) + "×" + std::to_string(rows) +
                                             " views; state the grid with --lenslet");
-    LightField light_field;
     light_field.views = grid_views(rows, columns, directions);
     light_field.kind = kind_from_positions(light_field.views);
     assume_directions(light_field, directions);
@@ -71,7 +72,7 @@ class LensletReader : public Reader {
         pictures.push_back(std::move(picture));
       }
     try {
-      attach_bright_views(light_field, std::move(pictures), bit_depth);
+      attach_bright_views(light_field, std::move(pictures), spec.bit_depth);
     } catch (const Error& problem) {
       throw Error(problem.code(), input.string() + ": " + problem.what());
     }

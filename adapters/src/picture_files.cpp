@@ -7,11 +7,16 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
+#include <string_view>
 #include <system_error>
 
+#include "exr_picture.h"
+#include "file_type.h"
 #include "gigaray/adapters/input_file.h"
 #include "gigaray/adapters/pictures.h"
 #include "picture_loading.h"
+#include "picture_values.h"
 #include "text.h"
 
 namespace gigaray {
@@ -30,62 +35,65 @@ std::string taken_with(const vips::VImage& image) {
   return text;
 }
 
+Samples samples_of(const vips::VImage& image, const fs::path& path) {
+  if (image.coding() == VIPS_CODING_RAD) return Samples::kLight;
+  switch (image.format()) {
+    case VIPS_FORMAT_UCHAR:
+      return Samples::k8;
+    case VIPS_FORMAT_USHORT:
+    case VIPS_FORMAT_CHAR:
+    case VIPS_FORMAT_SHORT:
+      return Samples::k16;
+    case VIPS_FORMAT_UINT:
+    case VIPS_FORMAT_INT:
+      return Samples::k32;
+    case VIPS_FORMAT_FLOAT:
+    case VIPS_FORMAT_DOUBLE:
+      return Samples::kLight;
+    default:
+      bad(path, "has pixels of complex numbers, a view has real ones");
+  }
+}
+
 PictureSpec spec_of(const vips::VImage& image, Orientation orientation, const fs::path& path) {
-  if (image.format() != VIPS_FORMAT_UCHAR && image.format() != VIPS_FORMAT_USHORT)
-    bad(path, "has pixels of another type than 8 or 16 bit");
   PictureSpec spec;
+  spec.samples = samples_of(image, path);
   spec.width = image.width();
   spec.height = image.height();
   spec.is_turned = vips_image_get_orientation(image.get_image()) != 1;
   if (orientation == Orientation::kApplied && vips_image_get_orientation_swap(image.get_image()))
     std::swap(spec.width, spec.height);
   spec.taken_with = taken_with(image);
-  spec.has_alpha = image.has_alpha();
+  spec.has_alpha = image.has_alpha() && image.coding() != VIPS_CODING_RAD;
   spec.is_grey = image.bands() < 3;
-  spec.bit_depth = image.format() == VIPS_FORMAT_UCHAR ? 8 : 16;
+  spec.bit_depth = spec.samples == Samples::k8 ? 8 : 16;
   return spec;
 }
 
-Image<std::uint16_t> repeated(const Image<std::uint16_t>& grey) {
-  Image<std::uint16_t> picture(grey.width(), grey.height(), 3);
-  for (std::size_t i = 0; i < picture.size(); ++i) picture.data()[i] = grey.data()[i / 3];
-  return picture;
+/// What libvips says, or that it can't read what is no damage.
+std::string fault_text(const vips::VError& error, const std::string& otherwise) {
+  const std::string reason = vips_reason(error);
+  if (reason.find("not a whole number of bytes") != std::string::npos)
+    return "has samples of 9 to 15 bits, one after the other, which can't be read; save it with 16 "
+           "bits, as `convert FILE -depth 16 NEW.tif` does";
+  return otherwise + " (" + reason + ")";
 }
-
-class PictureFiles : public PixelSource {
- public:
-  PictureFiles(std::vector<fs::path> files, int width, int height, int bit_depth, double limit)
-      : files_(std::move(files)),
-        width_(width),
-        height_(height),
-        bit_depth_(bit_depth),
-        limit_(limit) {}
-
-  Image<std::uint16_t> read(int view_idx) const override {
-    const fs::path& path = files_.at(view_idx);
-    PictureSpec spec;
-    Image<std::uint16_t> picture = decode_picture(path, Orientation::kApplied, spec, limit_);
-    if (picture.width() != width_ || picture.height() != height_)
-      bad(path, "has another size than when it was opened");
-    if (spec.bit_depth < bit_depth_) widen_to_16_bit(picture);
-    return picture;
-  }
-  int bit_depth() const override { return bit_depth_; }
-
- private:
-  std::vector<fs::path> files_;
-  int width_, height_, bit_depth_;
-  double limit_;
-};
 
 }  // namespace
 
 bool is_picture_name(const fs::path& path) {
-  static constexpr std::array<std::string_view, 17> kExtensions{
-      ".jpg", ".jpeg", ".jpe", ".png",  ".tif", ".tiff", ".bmp",  ".dib", ".ppm",
-      ".pgm", ".pbm",  ".pnm", ".webp", ".jp2", ".tga",  ".heic", ".gif"};
+  static constexpr std::array<std::string_view, 27> kExtensions{
+      ".jpg", ".jpeg", ".jpe",  ".jfif", ".jpg_large", ".png",  ".tif", ".tiff", ".bmp",
+      ".dib", ".ppm",  ".pgm",  ".pbm",  ".pnm",       ".webp", ".jp2", ".j2k",  ".jpf",
+      ".jpx", ".tga",  ".heic", ".heif", ".hif",       ".avif", ".jxl", ".gif",  ".jpeg_large"};
   const std::string extension = lower(path.extension().string());
   return std::find(kExtensions.begin(), kExtensions.end(), extension) != kExtensions.end();
+}
+
+bool is_picture(const fs::path& path) {
+  if (is_picture_name(path)) return true;
+  const FileKind kind = file_type(path).kind;
+  return kind == FileKind::kPicture || kind == FileKind::kLight;
 }
 
 std::vector<fs::path> files_of(const fs::path& folder) {
@@ -106,9 +114,17 @@ std::vector<fs::path> files_of(const fs::path& folder) {
 std::vector<fs::path> pictures_of(const fs::path& folder) {
   std::error_code ignored;
   if (!fs::is_directory(folder, ignored)) return {};
-  std::vector<fs::path> files = files_of(folder);
-  std::erase_if(files, [](const fs::path& path) { return !is_picture_name(path); });
-  return files;
+  const std::vector<fs::path> files = files_of(folder);
+  std::vector<fs::path> pictures, light;
+  std::ranges::copy_if(files, std::back_inserter(pictures), [](const fs::path& path) {
+    return likely_kind(path) == FileKind::kPicture;
+  });
+  // Beside pictures of the usual kinds they are maps of depth as a rule.
+  if (pictures.size() >= 2) return pictures;
+  std::ranges::copy_if(files, std::back_inserter(light), [](const fs::path& path) {
+    return file_type(path).kind == FileKind::kLight;
+  });
+  return light.size() > pictures.size() ? light : pictures;
 }
 
 std::string size_text(int width, int height) {
@@ -116,10 +132,11 @@ std::string size_text(int width, int height) {
 }
 
 PictureSpec read_picture_spec(const fs::path& path, Orientation orientation, double limit) {
+  if (is_exr(path)) return exr_spec(path, limit);
   try {
     return spec_of(open_picture(path, limit), orientation, path);
   } catch (const vips::VError& error) {
-    bad(path, "is damaged or no picture (" + vips_reason(error) + ")");
+    bad(path, fault_text(error, "is damaged or no picture"));
   }
 }
 
@@ -133,23 +150,49 @@ bool may_be_cut_short(const fs::path& path) {
   return false;
 }
 
-Image<std::uint16_t> decode_picture(const fs::path& path, Orientation orientation,
-                                    PictureSpec& spec, double limit) {
+StoredPicture read_stored(const fs::path& path, Orientation orientation, PictureSpec& spec,
+                          double limit) {
+  StoredPicture stored;
+  if (is_exr(path)) {
+    spec = exr_spec(path, limit);
+    stored.light = read_exr_colours(path, limit);
+    return stored;
+  }
   try {
     vips::VImage image = open_picture(path, limit);
     spec = spec_of(image, orientation, path);
+    if (image.coding() == VIPS_CODING_RAD) image = image.rad2float();
+    // PFM has its rows from bottom to top, which libvips leaves as it is.
+    if (spec.samples == Samples::kLight &&
+        std::string_view(image.get_string("vips-loader")).starts_with("ppm"))
+      image = image.copy_memory().flip(VIPS_DIRECTION_VERTICAL);
     if (image.interpretation() == VIPS_INTERPRETATION_CMYK)
       image = image.colourspace(VIPS_INTERPRETATION_sRGB);
     const int bands = spec.is_grey ? 1 : 3;
-    image = image.extract_band(0, vips::VImage::option()->set("n", bands)).cast(VIPS_FORMAT_USHORT);
+    image = image.extract_band(0, vips::VImage::option()->set("n", bands))
+                .cast(spec.samples == Samples::kLight ? VIPS_FORMAT_FLOAT
+                      : spec.samples == Samples::k32  ? VIPS_FORMAT_UINT
+                                                      : VIPS_FORMAT_USHORT);
     // Turning reads rows in another order than the file has them: decode first.
     if (orientation == Orientation::kApplied && spec.is_turned)
       image = image.copy_memory().autorot();
-    Image<std::uint16_t> picture(image.width(), image.height(), bands, values_of(image));
-    return spec.is_grey ? repeated(picture) : picture;
+    const int width = image.width(), height = image.height();
+    if (spec.samples == Samples::kLight)
+      stored.light = {width, height, bands, values_of<float>(image)};
+    else if (spec.samples == Samples::k32)
+      stored.deep = {width, height, bands, values_of<std::uint32_t>(image)};
+    else
+      stored.whole = {width, height, bands, values_of<std::uint16_t>(image)};
+    return stored;
   } catch (const vips::VError& error) {
-    bad(path, "is damaged or cut short (" + vips_reason(error) + ")");
+    bad(path, fault_text(error, "is damaged or cut short"));
   }
+}
+
+Image<std::uint16_t> decode_picture(const fs::path& path, Orientation orientation,
+                                    PictureSpec& spec, double limit, const ValueScale& scale) {
+  StoredPicture stored = read_stored(path, orientation, spec, limit);
+  return colours_of_16_bit(std::move(stored), spec.samples, scale);
 }
 
 void widen_to_16_bit(Image<std::uint16_t>& picture) {
@@ -166,25 +209,6 @@ int common_bit_depth(const std::vector<PictureSpec>& specs, std::vector<std::str
   if (deep && any([](const PictureSpec& spec) { return spec.bit_depth == 8; }))
     notes.push_back("pictures of 8 and of 16 bit: the 8-bit ones are scaled up");
   return deep ? 16 : 8;
-}
-
-void attach_pictures(LightField& light_field, std::vector<fs::path> files, double memory_bytes) {
-  GIGARAY_CHECK(files.size() == light_field.views.size() && !files.empty());
-  const double limit = opening_limit(memory_bytes);
-  std::vector<PictureSpec> specs;
-  for (const fs::path& path : files) {
-    specs.push_back(read_picture_spec(path, Orientation::kApplied, limit));
-    const PictureSpec &spec = specs.back(), &first = specs.front();
-    if (spec.width != first.width || spec.height != first.height)
-      bad(path, "has " + size_text(spec.width, spec.height) + " pixels, " +
-                    files.front().filename().string() + " has " +
-                    size_text(first.width, first.height) + "; all views need one size");
-  }
-  const int bit_depth = common_bit_depth(specs, light_field.notes);
-  light_field.width = specs.front().width;
-  light_field.height = specs.front().height;
-  light_field.pixels = std::make_shared<PictureFiles>(std::move(files), light_field.width,
-                                                      light_field.height, bit_depth, limit);
 }
 
 Image<std::uint16_t> read_picture(const fs::path& path, int* bit_depth, double memory_bytes) {

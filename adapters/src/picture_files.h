@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "gigaray/adapters/pictures.h"
 #include "gigaray/image.h"
 #include "gigaray/light_field.h"
 
@@ -19,11 +20,20 @@ enum class Orientation {
   kIgnored,  ///< as the sensor saw it; COLMAP and other programs that find cameras look at this one
 };
 
+/// How a picture holds its values.
+enum class Samples {
+  k8,      ///< 8 bit
+  k16,     ///< 16 bit
+  k32,     ///< 32-bit integers
+  kLight,  ///< floating point, taken as linear light
+};
+
 /// What the header of a picture says.
 struct PictureSpec {
   int width = 0;
   int height = 0;
-  int bit_depth = 8;  ///< 8 or 16
+  int bit_depth = 8;  ///< that it is read with: 8 or 16
+  Samples samples = Samples::k8;
   bool is_grey = false;
   bool has_alpha = false;
   bool is_turned = false;  ///< its orientation is not upright
@@ -31,18 +41,23 @@ struct PictureSpec {
   std::string taken_with;
 };
 
-/// Has the name an extension of a picture format that light fields come in?
+/// Has the name an extension of a picture format that light fields come in? For what may not be
+/// there, or is looked at in a moment anyway.
 bool is_picture_name(const std::filesystem::path& path);
+
+/// Is the file a picture, by its name or by what is in it?
+bool is_picture(const std::filesystem::path& path);
 
 /// Regular, visible files of a folder, sorted by name. Throws Error(kBadInput) or Error(kIo).
 std::vector<std::filesystem::path> files_of(const std::filesystem::path& folder);
 
-/// Regular, visible files of a folder whose name looks like a picture. Nothing when it is no
-/// folder.
+/// Regular, visible files of a folder that are pictures by their names or by what is in them,
+/// sorted by name. Those that only hold floating point (OpenEXR, RGBE, PFM) are, where at most one
+/// is of another kind and there are more of them. Nothing when it is no folder.
 std::vector<std::filesystem::path> pictures_of(const std::filesystem::path& folder);
 
-/// Reads the header alone. Throws Error(kBadInput) naming the file: no picture, damaged, another
-/// type than 8 or 16 bit, takes more than `limit` bytes to decode (opening_limit).
+/// Reads the header alone. Throws Error(kBadInput) naming the file: no picture, damaged, of a type
+/// that is not read, takes more than `limit` bytes to decode (opening_limit).
 PictureSpec read_picture_spec(const std::filesystem::path& path, Orientation orientation,
                               double limit);
 
@@ -54,7 +69,7 @@ bool may_be_cut_short(const std::filesystem::path& path);
 /// Throws Error(kBadInput) naming the file when it is damaged, cut short or takes more than `limit`
 /// bytes.
 Image<std::uint16_t> decode_picture(const std::filesystem::path& path, Orientation orientation,
-                                    PictureSpec& spec, double limit);
+                                    PictureSpec& spec, double limit, const ValueScale& scale = {});
 
 /// Brings 8-bit values to 16 bit: 255 becomes 65535.
 void widen_to_16_bit(Image<std::uint16_t>& picture);
@@ -66,9 +81,9 @@ int common_bit_depth(const std::vector<PictureSpec>& specs, std::vector<std::str
 std::string size_text(int width, int height);
 
 /// Sets width, height and pixels of `light_field` from its pictures, one per view in their order,
-/// and notes what is dropped. Reads headers only. Throws Error(kBadInput) naming the file: no
-/// picture, damaged, another size than the others, floating-point, too large for
-/// opening_limit(memory_bytes).
+/// and notes what is dropped. Reads headers, and of pictures deeper than 8 bit a few for their full
+/// scale. Throws Error(kBadInput) naming the file: no picture, damaged, another size than the
+/// others, too large for opening_limit(memory_bytes).
 void attach_pictures(LightField& light_field, std::vector<std::filesystem::path> files,
                      double memory_bytes);
 

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <string>
 #include <string_view>
+#include <type_traits>
 
+#include "file_type.h"
 #include "gigaray/adapters/input_file.h"
 #include "gigaray/error.h"
 #include "picture_files.h"
@@ -34,6 +36,8 @@ constexpr Decoder kDecoders[] = {
     {"VipsForeignLoadNsgif", 4, 4096},
     {"VipsForeignLoadJp2k", 8, 0},
     {"VipsForeignLoadHeif", 6, 0},
+    {"VipsForeignLoadJxl", 12, 0},
+    {"VipsForeignLoadRad", 0, 64},      // runs of up to 127 equal values
     {"VipsForeignLoadMagick", 8, 256},  // BMP and TGA
 };
 
@@ -48,6 +52,8 @@ bool is_for_magick(const InputFile& file) {
 }
 
 const Decoder& decoder_of(const InputFile& file) {
+  // Of a raw photograph libvips would read the preview.
+  if (const std::string why = why_unread(file.path()); !why.empty()) bad(file.path(), why);
   const char* found = vips_foreign_find_load(file.path().c_str());
   if (!found) throw vips::VError();
   for (const Decoder& decoder : kDecoders)
@@ -85,15 +91,19 @@ double bytes_to_decode(const vips::VImage& image, const Decoder& decoder) {
   const double pixels = double(image.width()) * image.height();
   const double bands = std::max(3, image.bands());
   const double interlaced = is_interlaced(image) ? 4 : 0;
-  constexpr double kResult = 6;  // RGB of 16 bit
+  const double stored = image.coding() == VIPS_CODING_RAD
+                            ? sizeof(float)
+                            : double(VIPS_IMAGE_SIZEOF_ELEMENT(image.get_image()));
+  const double result = 6 + (stored > 2 ? 3 * stored : 0);  // RGB of 16 bit, and what becomes it
   const bool turned = vips_image_get_orientation(image.get_image()) != 1;
-  return pixels * (bands * (decoder.sample_bytes + interlaced) + (turned ? 3 : 1) * kResult);
+  return pixels * (bands * (decoder.sample_bytes + interlaced) + (turned ? 3 : 1) * result);
 }
 
 }  // namespace
 
 vips::VImage open_picture(const fs::path& path, double limit) {
   use_vips();
+  vips_error_clear();  // of what an earlier picture had
   const InputFile file = [&] {
     try {
       return InputFile(path);
@@ -118,22 +128,30 @@ vips::VImage open_picture(const fs::path& path, double limit) {
   return image;
 }
 
-std::vector<std::uint16_t> values_of(const vips::VImage& image) {
-  GIGARAY_CHECK(image.format() == VIPS_FORMAT_USHORT);
+template <class T>
+std::vector<T> values_of(const vips::VImage& image) {
+  constexpr VipsBandFormat kFormat = std::is_same_v<T, float>           ? VIPS_FORMAT_FLOAT
+                                     : std::is_same_v<T, std::uint32_t> ? VIPS_FORMAT_UINT
+                                                                        : VIPS_FORMAT_USHORT;
+  GIGARAY_CHECK(image.format() == kFormat);
   const vips::VRegion region = vips::VRegion::new_from_image(image);
   const std::size_t row = std::size_t(image.width()) * image.bands();
-  std::vector<std::uint16_t> values;
+  std::vector<T> values;
   values.reserve(row * image.height());
   constexpr int kRowsAtOnce = 16;
   for (int top = 0; top < image.height(); top += kRowsAtOnce) {
     const VipsRect rows{0, top, image.width(), std::min(kRowsAtOnce, image.height() - top)};
     region.prepare(&rows);
     for (int v = top; v < top + rows.height; ++v) {
-      const auto* first = reinterpret_cast<const std::uint16_t*>(region.addr(0, v));
+      const auto* first = reinterpret_cast<const T*>(region.addr(0, v));
       values.insert(values.end(), first, first + row);
     }
   }
   return values;
 }
+
+template std::vector<std::uint16_t> values_of(const vips::VImage&);
+template std::vector<std::uint32_t> values_of(const vips::VImage&);
+template std::vector<float> values_of(const vips::VImage&);
 
 }  // namespace gigaray

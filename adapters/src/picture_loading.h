@@ -15,8 +15,10 @@ namespace gigaray {
 /// `limit` in bytes. Throws Error(kBadInput) naming the file, vips::VError.
 vips::VImage open_picture(const std::filesystem::path& path, double limit);
 
-/// The values of a picture of 16-bit samples, (v, u, c). Memory is taken as rows come, so that a
-/// header that promises more than follows costs little. Throws vips::VError.
-std::vector<std::uint16_t> values_of(const vips::VImage& image);
+/// The values of a picture, (v, u, c), whose samples are of the type T: 16 or 32 bit without a
+/// sign, or float. Memory is taken as rows come, so that a header that promises more than follows
+/// costs little. Throws vips::VError.
+template <class T>
+std::vector<T> values_of(const vips::VImage& image);
 
 }  // namespace gigaray

@@ -77,8 +77,8 @@ std::string PictureLookup::find(const std::string& stated) const {
     std::vector<std::string> found;
     for (auto name = names.lower_bound(stem + ".");
          name != names.end() && name->first.starts_with(stem + "."); ++name)
-      if (fs::path(name->first).stem() == stem && is_picture_name(name->second) &&
-          is_file(folder_ / below / name->second))
+      if (fs::path(name->first).stem() == stem && is_file(folder_ / below / name->second) &&
+          is_picture(folder_ / below / name->second))
         found.push_back((below / name->second).string());
     // Of a name without an extension several kinds may be there: the better kept one.
     const auto png = std::ranges::find_if(

@@ -14,6 +14,7 @@
 #include "gigaray/adapters/input_file.h"
 #include "picture_alpha.h"
 #include "picture_files.h"
+#include "picture_values.h"
 #include "undistortion.h"
 
 namespace gigaray {
@@ -35,12 +36,13 @@ struct Source {
 
 class PosedPictures : public PixelSource {
  public:
-  PosedPictures(std::vector<Source> sources, int width, int height, int bit_depth, bool has_mask,
-                double limit)
+  PosedPictures(std::vector<Source> sources, int width, int height, int bit_depth,
+                const ValueScale& scale, bool has_mask, double limit)
       : sources_(std::move(sources)),
         width_(width),
         height_(height),
         bit_depth_(bit_depth),
+        scale_(scale),
         has_mask_(has_mask),
         limit_(limit) {}
 
@@ -50,7 +52,8 @@ class PosedPictures : public PixelSource {
   Image<std::uint16_t> read(int view_idx) const override {
     const Source& source = sources_.at(std::size_t(view_idx));
     PictureSpec spec;
-    Image<std::uint16_t> picture = decode_picture(source.file, Orientation::kIgnored, spec, limit_);
+    Image<std::uint16_t> picture =
+        decode_picture(source.file, Orientation::kIgnored, spec, limit_, scale_);
     if (picture.width() != source.width || picture.height() != source.height)
       bad(source.file, "has another size than when it was opened");
     if (spec.bit_depth < bit_depth_) widen_to_16_bit(picture);
@@ -70,7 +73,7 @@ class PosedPictures : public PixelSource {
   /// without masks.
   Mask mask_of(const Source& source) const {
     if (!has_mask_) return {};
-    Mask seen = source.has_alpha ? read_alpha(source.file, limit_)
+    Mask seen = source.has_alpha ? read_alpha(source.file, limit_, scale_)
                                  : Mask(source.width, source.height, 1, 1);
     if (seen.width() != source.width || seen.height() != source.height)
       bad(source.file, "has another size than when it was opened");
@@ -108,6 +111,7 @@ class PosedPictures : public PixelSource {
 
   std::vector<Source> sources_;
   int width_, height_, bit_depth_;
+  ValueScale scale_;
   bool has_mask_;
   double limit_;
   mutable std::mutex mutex_;
@@ -303,6 +307,9 @@ LightField posed_light_field(std::vector<PosedPicture> pictures, const std::stri
 
   auto& notes = light_field.notes;
   const int bit_depth = common_bit_depth(specs, notes);
+  std::vector<fs::path> files;
+  for (const Source& source : sources) files.push_back(source.file);
+  const ValueScale scale = scale_of(files, specs, limit, notes);
   const std::string of_all = " of " + std::to_string(pictures.size()) + " pictures";
   if (num_undistorted > 0)
     notes.push_back(std::to_string(num_undistorted) + of_all + " are undistorted (" +
@@ -324,7 +331,7 @@ LightField posed_light_field(std::vector<PosedPicture> pictures, const std::stri
   const bool has_mask =
       masked || num_transparent > 0 || !one_size || !undistortions.fill_the_pictures();
   light_field.pixels = std::make_shared<PosedPictures>(
-      std::move(sources), light_field.width, light_field.height, bit_depth, has_mask, limit);
+      std::move(sources), light_field.width, light_field.height, bit_depth, scale, has_mask, limit);
   place_by_cameras(light_field);
   return light_field;
 }

@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "file_type.h"
 #include "gigaray/adapters/input_file.h"
 #include "gigaray/adapters/rail_rectification.h"
 #include "numbered_names.h"
 #include "picture_files.h"
 #include "picture_loading.h"
+#include "picture_values.h"
 #include "text.h"
 
 namespace gigaray {
@@ -19,11 +21,14 @@ namespace fs = std::filesystem;
   throw Error(ErrorCode::kBadInput, path.string() + ": " + what);
 }
 
+std::string in_words(const std::string& why) {
+  return why.empty() ? " (folders inside it are not searched)" : ": " + why;
+}
+
 /// In the order of the numbers in their names, else of the names.
 std::vector<fs::path> in_order(const fs::path& folder, std::vector<std::string>& notes) {
   const std::vector<fs::path> all = pictures_of(folder);
-  if (all.empty())
-    bad(folder, "no photographs in this folder (folders inside it are not searched)");
+  if (all.empty()) bad(folder, "no photographs in this folder" + in_words(why_no_pictures(folder)));
   const NameGroup group = largest_group(all);
   if (!group.rival.empty())
     bad(folder, "holds more than one series of photographs, " + group.first_name() + " … and " +
@@ -46,6 +51,7 @@ std::optional<double> focal_of_exif(const fs::path& file, int width, int height)
   constexpr const char* kField = "exif-ifd2-FocalLengthIn35mmFilm";
   constexpr double kDiagonalMm = 43.27;
   try {
+    if (is_exr(file)) return std::nullopt;
     const vips::VImage image = open_picture(file, opening_limit());
     if (image.get_typeof(kField) == 0) return std::nullopt;
     const std::vector<std::string> words = split_words(image.get_string(kField));
@@ -118,6 +124,7 @@ RailPhotographs open_rail_in_order(const fs::path& folder, const KnownLens& lens
   photographs.width = specs.front().width;
   photographs.height = specs.front().height;
   photographs.bit_depth = common_bit_depth(specs, photographs.notes);
+  photographs.scale = scale_of(files, specs, limit, photographs.notes);
   const Lens common = lens_of(lens, photographs);
   for (RailPhotograph& picture : photographs.pictures) picture.lens = common;
   return photographs;

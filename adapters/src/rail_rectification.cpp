@@ -294,7 +294,7 @@ class RectifiedPictures : public PixelSource {
     const RailPhotograph& photograph = rail_.pictures.at(std::size_t(view_idx));
     PictureSpec spec;
     Image<std::uint16_t> picture =
-        decode_picture(photograph.file, Orientation::kIgnored, spec, opening_limit());
+        decode_picture(photograph.file, Orientation::kIgnored, spec, opening_limit(), rail_.scale);
     if (picture.width() != photograph.lens.width || picture.height() != photograph.lens.height)
       bad(photograph.file.string() + ": has another size than when it was opened");
     if (spec.bit_depth < rail_.bit_depth) widen_to_16_bit(picture);
@@ -316,11 +316,12 @@ class RectifiedPictures : public PixelSource {
   std::vector<LensMap> lenses_;
 };
 
-PictureSeries series_of(const std::vector<RailPhotograph>& pictures, int bit_depth) {
-  return {int(pictures.size()), bit_depth, [&pictures, bit_depth](int idx) {
+PictureSeries series_of(const std::vector<RailPhotograph>& pictures, int bit_depth,
+                        const ValueScale& scale) {
+  return {int(pictures.size()), bit_depth, [&pictures, bit_depth, scale](int idx) {
             PictureSpec spec;
-            Image<std::uint16_t> picture =
-                decode_picture(pictures[idx].file, Orientation::kIgnored, spec, opening_limit());
+            Image<std::uint16_t> picture = decode_picture(pictures[idx].file, Orientation::kIgnored,
+                                                          spec, opening_limit(), scale);
             if (spec.bit_depth < bit_depth) widen_to_16_bit(picture);
             return picture;
           }};
@@ -335,6 +336,7 @@ RectifiedRail calibrate_rail(const RailPhotographs& photographs, RailRotations r
   result.posed = photographs.posed;
   result.focal_is_known = photographs.focal_is_known;
   result.bit_depth = photographs.bit_depth;
+  result.scale = photographs.scale;
   RailReport& report = result.report;
   std::vector<RailPhotograph>& pictures = result.pictures;
 
@@ -364,7 +366,7 @@ RectifiedRail calibrate_rail(const RailPhotographs& photographs, RailRotations r
 
   const std::vector<LensMap> lenses = lens_maps(pictures);
   const RadialLens lens = common_lens(lenses);
-  const PictureSeries series = series_of(pictures, result.bit_depth);
+  const PictureSeries series = series_of(pictures, result.bit_depth, result.scale);
   std::vector<Track> tracks = find_feature_tracks(series, {}, "match", control);
   report.vertical_before = vertical_residual(tracks);
   tracks = undistorted(tracks, lenses, lens);

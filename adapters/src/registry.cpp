@@ -44,7 +44,7 @@ std::vector<std::unique_ptr<const Reader>> all_readers() {
 // --lenslet makes any single picture a lenslet picture, and goes with nothing else.
 const Reader& lenslet_reader_for(const fs::path& input) {
   std::error_code ignored;
-  if (!fs::is_regular_file(input, ignored) || !is_picture_name(input))
+  if (!fs::is_regular_file(input, ignored) || !is_picture(input))
     throw Error(ErrorCode::kInvalidArgument,
                 "--lenslet: " + input.string() + " is not one picture; leave the option out");
   static const std::unique_ptr<const Reader> reader = lenslet_reader();

@@ -250,11 +250,5 @@ TEST_F(ImageSequence, PictureThatChangesLaterIsNoticed) {
   expect_error(ErrorCode::kBadInput, "view2.png", [&] { light_field.pixels->read(1); });
 }
 
-TEST_F(ImageSequence, FloatingPointPicturesAreRefused) {
-  save("v1.tif", cv::Mat(3, 5, CV_32FC3, cv::Scalar(1, 2, 3)));
-  save("v2.tif", cv::Mat(3, 5, CV_32FC3, cv::Scalar(1, 2, 3)));
-  expect_bad_input("8 or 16 bit");
-}
-
 }  // namespace
 }  // namespace gigaray

@@ -10,6 +10,13 @@
 
 namespace gigaray {
 
+/// How stored values become those of a light field, the same way for all of its views.
+struct ValueScale {
+  int bits_of_16 = 16;   ///< of 16-bit integers: 2^bits − 1 is full scale
+  int bits_of_32 = 32;   ///< of 32-bit integers
+  float full_light = 1;  ///< linear light that is full scale; sRGB from there on
+};
+
 /// Writes a PNG, whole or not at all. picture: 1 (grey) or 3 (RGB) channels, values
 /// 0 … 2^bit_depth − 1; bit_depth 8 or 16. Throws Error(kIo) when the place can't be written.
 void write_png(const std::filesystem::path& path, const Image<std::uint16_t>& picture,

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "gigaray/adapters/lens.h"
+#include "gigaray/adapters/pictures.h"
 #include "gigaray/calibration/rail.h"
 #include "gigaray/calibration/rail_line.h"
 #include "gigaray/light_field.h"
@@ -33,6 +34,7 @@ struct RailPhotographs {
   bool distortion_is_known = true;       ///< else the lens is a pinhole to start with
   int width = 0, height = 0;
   int bit_depth = 8;
+  ValueScale scale;
   std::vector<std::string> notes;  ///< what was assumed or left out
   std::string lens_note;           ///< what was assumed of the lens, unless it comes with the poses
 };
@@ -85,6 +87,7 @@ struct RectifiedRail {
   RailReport report;
   bool posed = false, focal_is_known = true;  ///< as of the photographs
   int bit_depth = 8;
+  ValueScale scale;
 };
 
 /// Calibrates a rail from its photographs: features are followed, the cameras are brought onto one
