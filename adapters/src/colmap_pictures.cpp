@@ -8,6 +8,7 @@
 #include "gigaray/adapters/atomic_output.h"
 #include "gigaray/adapters/input_file.h"
 #include "picture_loading.h"
+#include "picture_values.h"
 
 namespace gigaray {
 namespace {
@@ -35,12 +36,14 @@ void add_exif(const fs::path& from, double limit, vips::VImage& image) {
     vips_image_set_blob_copy(image.get_image(), kField, bytes, size);
   } catch (const vips::VError&) {
     return;  // formats of other libraries
+  } catch (const Error&) {
+    return;
   }
 }
 
-void write_copy(const fs::path& from, const fs::path& to, double limit) {
+void write_copy(const fs::path& from, const fs::path& to, const ValueScale& scale, double limit) {
   PictureSpec spec;
-  Image<std::uint16_t> picture = decode_picture(from, Orientation::kIgnored, spec, limit);
+  Image<std::uint16_t> picture = decode_picture(from, Orientation::kIgnored, spec, limit, scale);
   if (spec.bit_depth == 16)
     for (std::uint16_t& value : picture) value /= 257;
   vips::VImage image =
@@ -78,6 +81,10 @@ ColmapPictures::ColmapPictures(const fs::path& folder, const std::vector<std::st
     num_copies_ += is_copied.back();
   }
   if (num_copies_ == 0) return;
+  std::vector<fs::path> files;
+  for (const std::string& name : names) files.push_back(folder / name);
+  std::vector<std::string> same_notes_as_when_opened;
+  const ValueScale scale = scale_of(files, specs_, limit, same_notes_as_when_opened);
   copies_ = folder_ = copies;
   std::error_code error;
   fs::create_directories(copies, error);
@@ -87,7 +94,7 @@ ColmapPictures::ColmapPictures(const fs::path& folder, const std::vector<std::st
     control.progress("COLMAP: copies", double(i), double(names.size()));
     control.throw_if_cancelled();
     if (is_copied[i])
-      write_copy(folder / names[i], copies / names[i], limit);
+      write_copy(folder / names[i], copies / names[i], scale, limit);
     else
       fs::create_symlink(fs::absolute(folder / names[i]), copies / names[i]);
   }

@@ -54,14 +54,26 @@ bool sounds_like_cameras(const std::string& name) {
   return false;
 }
 
-bool is_unused(const std::string& name, const std::string& format) {
+/// Is a folder of that name a part of a capture, whose other files belong to it?
+bool is_part_of_capture(const fs::path& folder) {
+  std::error_code ignored;
+  const std::string name = lower(
+      fs::absolute(folder / "x", ignored).lexically_normal().parent_path().filename().string());
+  for (const char* word : {"image", "rgb", "frame", "picture", "photo", "color", "colour", "input",
+                           "undistorted", "jpg", "png"})
+    if (name.starts_with(word)) return true;
+  return false;
+}
+
+/// by_words: also what only sounds like cameras.
+bool is_unused(const std::string& name, const std::string& format, bool by_words) {
   bool is_known = false;
   for (const CameraFiles& kind : kCameraFiles) {
     if (!is_of(kind, name)) continue;
     if (kind.format == format) return false;
     is_known = true;
   }
-  return is_known || sounds_like_cameras(name);
+  return is_known || (by_words && sounds_like_cameras(name));
 }
 
 /// Does a folder with such a name hold cameras?
@@ -72,15 +84,16 @@ bool holds_cameras(const fs::path& folder, const std::string& name, const std::s
          format != "Strecha .camera files" && !fs::is_empty(folder, ignored);
 }
 
-void add_unused(const fs::path& folder, const std::string& format, std::vector<fs::path>& found) {
+void add_unused(const fs::path& folder, const std::string& format, bool by_words,
+                std::vector<fs::path>& found) {
   std::error_code error;
   for (auto entry = fs::directory_iterator(folder, error);
        !error && entry != fs::directory_iterator(); entry.increment(error)) {
     std::error_code ignored;
     const std::string name = lower(entry->path().filename().string());
-    const bool is_there = entry->is_directory(ignored)
-                              ? holds_cameras(entry->path(), name, format)
-                              : entry->is_regular_file(ignored) && is_unused(name, format);
+    const bool is_there = entry->is_directory(ignored) ? holds_cameras(entry->path(), name, format)
+                                                       : entry->is_regular_file(ignored) &&
+                                                             is_unused(name, format, by_words);
     if (is_there) found.push_back(entry->path().lexically_normal());
   }
 }
@@ -91,11 +104,11 @@ std::string unused_cameras(const fs::path& input, const std::string& format) {
   std::error_code ignored;
   if (!fs::is_directory(input, ignored)) return {};
   std::vector<fs::path> found;
-  add_unused(input, format, found);
+  add_unused(input, format, true, found);
   const bool has_cameras = std::ranges::any_of(
       kCameraFiles, [&](const CameraFiles& kind) { return kind.format == format; });
   // An input with cameras of its own has no need of others around it.
-  if (!has_cameras) add_unused(input / "..", format, found);
+  if (!has_cameras) add_unused(input / "..", format, is_part_of_capture(input), found);
   if (found.empty()) return {};
   std::ranges::sort(found);
   constexpr std::size_t kMostNamed = 4;
