@@ -124,6 +124,23 @@ const char* disparity_unit(const LightField& light_field) {
              : "level-0 px per view step; positive is nearer";
 }
 
+/// A rig that is focused, without a word of where, sees much beyond infinity.
+void tell_of_infinity(const FloatMap& disparity, const LightField& light_field,
+                      const std::string& view, const RunControl& control) {
+  if (light_field.kind == LightFieldKind::kUnstructured || !has_metric_depth(light_field) ||
+      light_field.rig.focus_distance)
+    return;
+  const auto beyond =
+      std::count_if(disparity.begin(), disparity.end(), [](float d) { return d < 0; });
+  constexpr double kMany = 0.02;
+  const double share = double(beyond) / double(disparity.size());
+  if (share > kMany)
+    control.message(
+        fmt::format("{:.0f} % of {} have a disparity below 0, that of nothing in a rig without "
+                    "focus, and get no depth; --focus-distance states what has disparity 0",
+                    100 * share, view));
+}
+
 void run(const Settings& settings, const RunControl& control) {
   const auto begin = std::chrono::steady_clock::now();
   std::set<MapFormat> formats;
@@ -167,6 +184,7 @@ void run(const Settings& settings, const RunControl& control) {
     }
     all.add(depth);
     if (active[i] == top) of_centre.add(depth);
+    if (active[i] == top) tell_of_infinity(depth.disparity, light_field, view.name, control);
     DisparityRange pictured{result.hypotheses().min, result.hypotheses().max};
     views.push_back({{"name", view.name}, {"s", view.s}, {"t", view.t}});
     if (!result.cameras().empty()) {

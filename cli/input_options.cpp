@@ -59,6 +59,7 @@ LightField InputOptions::open_light_field(const std::filesystem::path& place,
   LightField light_field = gigaray::open_light_field(place, options);
   if (!without.empty())
     light_field = gigaray::without(light_field, parse_views(without, light_field));
+  rig.apply(light_field);
   return max_size > 0 ? shrunk(std::move(light_field), max_size) : light_field;
 }
 
@@ -102,6 +103,7 @@ void InputOptions::add_to(CLI::App& app) {
                  "Shrink pictures that have more pixels than this on a side (default: as they are)")
       ->check(CLI::Range(16, 1 << 20))
       ->type_name("PX");
+  rig.add_to(app);
 }
 
 }  // namespace gigaray::cli

@@ -100,6 +100,11 @@ LightField open_or_find_cameras(InputOptions input, const OutputOption& output,
     throw Error(ErrorCode::kBadInput, twice);
   std::string why = input.find_cameras ? "" : why_no_row(input, control);
   if (!input.find_cameras && why.empty()) return input.open_light_field();
+  if (const std::string option = input.rig.stated(); !option.empty())
+    throw Error(ErrorCode::kInvalidArgument,
+                fmt::format("{}: goes with views at equal steps on a line; {}", option,
+                            why.empty() ? "with --find-cameras COLMAP finds the cameras"
+                                        : why + " (--direction states that they are one)"));
   if (!why.empty()) control.message(why + "; their cameras are found with COLMAP");
   ColmapRunOptions options;
   options.masks = input.open.masks;

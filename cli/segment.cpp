@@ -81,7 +81,9 @@ Interval interval_of(const Settings& settings, const LightField& light_field) {
   if (!has_metric_depth(light_field))
     throw bad(fmt::format(
         "--near {} is less than --far {}: these are distances, but {} has no depth in scene units; "
-        "state disparities (disparity.pfm), of which the near one is larger",
+        "state disparities (disparity.pfm), of which the near one is larger, or the rig to "
+        "`gigaray "
+        "depth` with --focal-px and --baseline",
         settings.near, settings.far, settings.result.string()));
   if (settings.near < 0) throw bad("--near: a distance can't be negative");
   return {Unit::kDepth, {float(settings.near), float(settings.far)}};

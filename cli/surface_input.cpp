@@ -91,7 +91,8 @@ DepthViews SurfaceInput::open(const RunControl& control) const {
   RigCameras rig(scene.light_field, scene.range.min);
   if (!rig.is_metric())
     control.message(
-        "focal length and view step are not known: the scene keeps straight lines but not angles");
+        "focal length and view step are not known: the scene keeps straight lines but not angles "
+        "(--focal-px and --baseline of `gigaray depth` state them)");
   DepthViews result;
   for (const int view : chosen) result.cameras.push_back(rig.camera(view));
   const auto reader =
