@@ -77,7 +77,9 @@ std::vector<std::string> commands() {
 
 std::string unit_of(const LightField& light_field) {
   if (!light_field.rig.unit.empty()) return light_field.rig.unit;
-  return light_field.kind == LightFieldKind::kUnstructured ? "units of the cameras" : "scene units";
+  return light_field.kind == LightFieldKind::kUnstructured
+             ? "units of the cameras, which nobody stated"
+             : "scene units";
 }
 
 double number_at(const ordered_json& root, const char* key) {
@@ -93,7 +95,7 @@ ordered_json map_json(const FloatMap& disparity, const LightField& light_field) 
   const std::string unit = unit_of(light_field);
   ordered_json result;
   result["disparity"] =
-      range_json(values, posed ? "1 / " + unit + ", inverse depth" : "px per view step");
+      range_json(values, posed ? "inverse depth, 1 / " + unit : "px per view step");
   result["depth"] = nullptr;
   if (has_metric_depth(light_field))
     result["depth"] = range_json(SortedValues(depth_from_disparity(disparity, light_field)), unit);

@@ -261,10 +261,10 @@ void tell_of_result(const InfoOptions& options, const std::string& kind, const C
 
 Run info_command(CLI::App& app) {
   app.description(
-      "What an input is: kind, views, positions, rig, range; what depth of it takes. Or what a "
-      "result holds, and what to type next");
+      "What an input is and what depth of it takes; what a result holds and what to type next");
   auto options = std::make_shared<InfoOptions>();
   options->run.add_to(app);
+  options->run.add_depth_to(app);
   app.add_option("--views", options->views, "Views that get depth, as `depth` takes them")
       ->capture_default_str();
   app.add_flag("--json", options->json, "Print JSON");

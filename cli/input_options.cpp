@@ -6,6 +6,7 @@
 #include <regex>
 #include <string>
 
+#include "did_you_mean.h"
 #include "gigaray/adapters/shrunk.h"
 #include "view_list.h"
 
@@ -22,7 +23,8 @@ Travel way_of(const std::string& word, const std::string& text) {
     throw CLI::ValidationError("--direction",
                                "'" + text +
                                    "' is not one of right, left, down, up, two of them as in "
-                                   "left,up, or auto");
+                                   "left,up, or auto" +
+                                   did_you_mean(word, {"right", "left", "down", "up", "auto"}));
   return found->second;
 }
 

@@ -57,6 +57,29 @@ ordered_json ply_json(const fs::path& file) {
   return root;
 }
 
+/// Null: it is none, or none with a whole head.
+ordered_json pcd_json(const fs::path& file) {
+  std::istringstream lines(InputFile(file).read(0, kMostHead));
+  ordered_json root;
+  bool is_pcd = false;
+  for (std::string text; std::getline(lines, text);) {
+    std::istringstream words(text);
+    std::string first, second;
+    words >> first;
+    std::uint64_t count = 0;
+    double x = 0, y = 0, z = 0;
+    if (first == "#" && words >> second && second == "origin" && words >> x >> y >> z)
+      root["origin"] = {x, y, z};
+    is_pcd |= first == "FIELDS";
+    if (first == "POINTS" && words >> count) root["vertices"] = count;
+    if (first == "DATA" && is_pcd && root.contains("vertices")) {
+      root["faces"] = 0;
+      return root;
+    }
+  }
+  return nullptr;
+}
+
 /// The first chunk of binary glTF; null: it is none.
 ordered_json glb_root(const fs::path& file) {
   constexpr std::uint64_t kHead = 20;
@@ -105,6 +128,7 @@ ordered_json glb_json(const fs::path& file) {
 std::string kind_of_model(const fs::path& file) {
   try {
     if (file.extension() == ".glb") return glb_root(file).is_object() ? "gigaray mesh" : "";
+    if (file.extension() == ".pcd") return pcd_json(file).is_object() ? "gigaray cloud" : "";
     if (file.extension() != ".ply" || ply_head(file).empty()) return {};
     return ply_json(file).at("faces") == 0 ? "gigaray cloud" : "gigaray mesh";
   } catch (const Error&) {
@@ -115,7 +139,9 @@ std::string kind_of_model(const fs::path& file) {
 ordered_json model_json(const fs::path& file) {
   ordered_json root{{"format", kind_of_model(file)}, {"file", path_text(file)}};
   root["bytes"] = InputFile(file).size();
-  root.update(file.extension() == ".glb" ? glb_json(file) : ply_json(file));
+  root.update(file.extension() == ".glb"   ? glb_json(file)
+              : file.extension() == ".pcd" ? pcd_json(file)
+                                           : ply_json(file));
   return root;
 }
 

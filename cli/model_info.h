@@ -8,8 +8,8 @@
 
 namespace gigaray::cli {
 
-/// "gigaray cloud" or "gigaray mesh" of a .ply or .glb file, whoever wrote it; else empty. Never
-/// throws for what a file contains.
+/// "gigaray cloud" or "gigaray mesh" of a .ply, .pcd or .glb file, whoever wrote it; else empty.
+/// Never throws for what a file contains.
 std::string kind_of_model(const std::filesystem::path& file);
 
 /// "format", "file", "bytes", "vertices", "faces", and where the file states it "origin" and "box"

@@ -69,6 +69,7 @@ fs::path find_cameras(const fs::path& photographs, const ColmapRunOptions& optio
     control.message(fmt::format("cameras as COLMAP found them before, in {}", work.string()));
     return work;
   }
+  control.message(fmt::format("COLMAP's database, model and log go to {}", work.string()));
   AtomicFolder folder(work, "gigaray cameras", output.rules({photographs, options.masks}));
   try {
     const ColmapRun run = run_colmap(photographs, folder.path(), options, control);

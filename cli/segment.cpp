@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "command.h"
+#include "did_you_mean.h"
 #include "gigaray/adapters/atomic_output.h"
 #include "gigaray/adapters/depth_result.h"
 #include "gigaray/adapters/maps.h"
@@ -242,7 +243,7 @@ void add_interval(CLI::App& app, const std::shared_ptr<Settings>& settings) {
   far->each([settings](const std::string&) { settings->is_interval = true; });
   app.add_option("--unit", settings->unit,
                  "disparity or depth: refuse a pair in the other order; auto: by their order")
-      ->check(CLI::IsMember({"auto", "disparity", "depth"}))
+      ->check(one_of({"auto", "disparity", "depth"}))
       ->excludes(at)
       ->capture_default_str();
 }
@@ -278,7 +279,7 @@ Run segment_command(CLI::App& app) {
                  "With --soft: where the pictures are, when they are no more where they were")
       ->type_name("INPUT");
   app.add_option("--format", settings->formats, "exr: VIEW/matte.exr or mask.exr too")
-      ->check(CLI::IsMember({"exr"}))
+      ->check(one_of({"exr"}))
       ->delimiter(',');
   return [settings](const RunControl& control) { run(*settings, control); };
 }

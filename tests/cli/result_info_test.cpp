@@ -72,6 +72,9 @@ TEST_F(ResultInfo, ItsNextLinesRun) {
   expect_words(run("info masks").out, {"masks of disparity", "it's depth", "% of the pixels"});
   expect_words(run("info novel").out, {"gigaray render", "view.png"});
   EXPECT_EQ(json::parse(run("info scene.ply --json").out).at("format"), "gigaray cloud");
+  ASSERT_EQ(run("cloud " + depth + " -o scene.pcd").exit_code, 0);
+  EXPECT_EQ(json::parse(run("info scene.pcd --json").out).at("vertices"),
+            json::parse(run("info scene.ply --json").out).at("vertices"));
 }
 
 TEST_F(ResultInfo, OneViewNeedsNoWitnesses) {
