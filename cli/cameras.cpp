@@ -54,6 +54,17 @@ std::vector<int> count_partners(const LightField& light_field) {
   return counts;
 }
 
+std::string note_on_scale(const LightField& light_field) {
+  if (light_field.kind != LightFieldKind::kUnstructured || !light_field.rig.unit.empty()) return {};
+  // Structure from motion can't know the scale; other files may hold metres without saying so.
+  const bool by_colmap = light_field.format == "COLMAP workspace";
+  return fmt::format(
+      "distances are in the unit of the cameras, {}, not in metres (--unit of `gigaray depth` "
+      "names "
+      "one where the cameras were scaled)",
+      by_colmap ? "which COLMAP chose" : "which the input does not name");
+}
+
 std::vector<std::pair<std::string, std::string>> describe_cameras(const LightField& light_field) {
   std::vector<double> focals;
   for (const Camera& camera : light_field.cameras) focals.push_back(camera.focal_u);

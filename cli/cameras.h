@@ -21,4 +21,8 @@ std::vector<int> count_partners(const LightField& light_field);
 /// Lines about the cameras of unstructured views: label, text.
 std::vector<std::pair<std::string, std::string>> describe_cameras(const LightField& light_field);
 
+/// A sentence for who takes distances for metres: views with cameras whose unit nobody stated.
+/// Empty: it is known, or there are no distances.
+std::string note_on_scale(const LightField& light_field);
+
 }  // namespace gigaray::cli

@@ -49,7 +49,9 @@ struct Settings {
 };
 
 void run(const Settings& settings, const RunControl& control) {
-  CloudFile file(AtomicFile(settings.output.path, settings.input.rules(settings.output), {".ply"}));
+  CloudFile file(
+      AtomicFile(settings.output.path, settings.input.rules(settings.output), {".ply", ".pcd"}),
+      settings.output.path.extension() == ".pcd" ? CloudFormat::kPcd : CloudFormat::kPly);
   const auto begin = std::chrono::steady_clock::now();
   const DepthViews views = settings.input.open(control);
   CloudOptions options = settings.cloud;
@@ -100,7 +102,7 @@ Run cloud_command(CLI::App& app) {
   app.description("One coloured, oriented point cloud of all views");
   const auto settings = std::make_shared<Settings>();
   settings->input.declare(app);
-  settings->output.add_to(app, "scene.ply", "FILE")->required();
+  settings->output.add_to(app, "scene.ply, or scene.pcd for PCL", "FILE")->required();
   app.add_option("--voxel", settings->cloud.voxel,
                  "Points in a cube of this size become one, scene units (default: the distance of "
                  "neighbouring pixels there, in steps of two)")

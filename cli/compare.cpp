@@ -17,6 +17,7 @@
 #include "contest.h"
 #include "contest_report.h"
 #include "depth_options_cli.h"
+#include "did_you_mean.h"
 #include "gigaray/adapters/atomic_output.h"
 #include "gigaray/adapters/maps.h"
 #include "numbers.h"
@@ -277,6 +278,7 @@ Run compare_command(CLI::App& app) {
   app.description("This method beside the stereo baselines: numbers, pictures, one HTML page");
   const auto settings = std::make_shared<Settings>();
   settings->run.add_all_but_preset_to(app);
+  settings->run.add_depth_to(app);
   app.add_option(
          "--truth", settings->truth,
          "True disparity of the centre view: a map, or a folder with truth.pfm, "
@@ -288,7 +290,7 @@ Run compare_command(CLI::App& app) {
   app.add_option(
          "--methods", settings->methods,
          "Some methods instead of all: " + fmt::format("{}", fmt::join(all_methods(), ", ")))
-      ->check(CLI::IsMember(all_methods()))
+      ->check(one_of(all_methods()))
       ->delimiter(',')
       ->type_name("LIST");
   app.add_option("--external", settings->externals,

@@ -14,10 +14,12 @@
 #include "cameras.h"
 #include "command.h"
 #include "depth_options_cli.h"
+#include "did_you_mean.h"
 #include "gigaray/adapters/depth_folder.h"
 #include "gigaray/adapters/path_text.h"
 #include "gigaray/metric_depth.h"
 #include "gigaray/reconstruct.h"
+#include "gigaray/rig_cameras.h"
 #include "numbers.h"
 #include "output_option.h"
 #include "photographs.h"
@@ -124,21 +126,41 @@ const char* disparity_unit(const LightField& light_field) {
              : "level-0 px per view step; positive is nearer";
 }
 
+/// A rig that is focused, without a word of where, sees much beyond infinity.
+void tell_of_infinity(const FloatMap& disparity, const LightField& light_field,
+                      const std::string& view, const RunControl& control) {
+  if (light_field.kind == LightFieldKind::kUnstructured || !has_metric_depth(light_field) ||
+      light_field.rig.focus_distance)
+    return;
+  const auto beyond =
+      std::count_if(disparity.begin(), disparity.end(), [](float d) { return d < 0; });
+  constexpr double kMany = 0.02;
+  const double share = double(beyond) / double(disparity.size());
+  if (share > kMany)
+    control.message(
+        fmt::format("{:.0f} % of {} have a disparity below 0, that of nothing in a rig without "
+                    "focus, and get no depth; --focus-distance states what has disparity 0",
+                    100 * share, view));
+}
+
 void run(const Settings& settings, const RunControl& control) {
   const auto begin = std::chrono::steady_clock::now();
   std::set<MapFormat> formats;
   for (const std::string& name : settings.formats)
-    formats.insert(name == "exr"      ? MapFormat::kExr
-                   : name == "npy"    ? MapFormat::kNpy
-                   : name == "colmap" ? MapFormat::kColmap
-                                      : MapFormat::kPng16);
+    formats.insert(name == "exr"          ? MapFormat::kExr
+                   : name == "npy"        ? MapFormat::kNpy
+                   : name == "colmap"     ? MapFormat::kColmap
+                   : name == "nerfstudio" ? MapFormat::kNerfstudio
+                                          : MapFormat::kPng16);
   DepthFolder folder(settings.output.path, formats,
                      settings.output.rules(settings.run.input.places()));
   LightField light_field = open_or_find_cameras(settings.run.input, settings.output, control);
   for (const std::string& note : light_field.notes) control.message(note);
   DepthOptions options = settings.run.resolve(light_field, control);
   options.views = parse_views(settings.views, light_field);
-  folder.describe(light_field);
+  folder.describe(light_field, formats.contains(MapFormat::kNerfstudio)
+                                   ? RigCameras(light_field).cameras()
+                                   : std::vector<Camera>());
 
   Reconstruction result = reconstruct(light_field, options, settings.run.backend(), control);
 
@@ -167,6 +189,7 @@ void run(const Settings& settings, const RunControl& control) {
     }
     all.add(depth);
     if (active[i] == top) of_centre.add(depth);
+    if (active[i] == top) tell_of_infinity(depth.disparity, light_field, view.name, control);
     DisparityRange pictured{result.hypotheses().min, result.hypotheses().max};
     views.push_back({{"name", view.name}, {"s", view.s}, {"t", view.t}});
     if (!result.cameras().empty()) {
@@ -211,6 +234,7 @@ void run(const Settings& settings, const RunControl& control) {
   else
     fmt::print("{}: {} views in {:.1f} s on {}\n", settings.output.path.string(), active.size(),
                seconds, result.device());
+  if (const std::string note = note_on_scale(light_field); !note.empty()) control.message(note);
 }
 
 }  // namespace
@@ -219,6 +243,7 @@ Run depth_command(CLI::App& app) {
   app.description("Depth for every view of a light field");
   auto settings = std::make_shared<Settings>();
   settings->run.add_to(app);
+  settings->run.add_depth_to(app);
   app.add_flag("--find-cameras", settings->run.input.find_cameras,
                "Find the cameras of a folder of pictures with COLMAP even if they look like a row "
                "(default: when they don't)");
@@ -234,8 +259,9 @@ Run depth_command(CLI::App& app) {
       ->type_name("C");
   app.add_option("--format", settings->formats,
                  "Maps in these formats too: exr, npy, png16; colmap: a dense workspace for "
-                 "`colmap stereo_fusion`")
-      ->check(CLI::IsMember({"exr", "npy", "png16", "colmap"}))
+                 "`colmap stereo_fusion`; nerfstudio: transforms.json with pictures, depth and "
+                 "points")
+      ->check(one_of({"exr", "npy", "png16", "colmap", "nerfstudio"}))
       ->delimiter(',');
   app.add_flag("--json", settings->json, "Print gigaray.json to stdout");
   return [settings](const RunControl& control) { run(*settings, control); };

@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "depth_range.h"
+#include "did_you_mean.h"
 #include "gigaray/adapters/pose_check.h"
 #include "gigaray/camera_order.h"
 #include "memory_option.h"
@@ -14,7 +16,7 @@ namespace gigaray::cli {
 
 void add_preset_option(CLI::App& app, std::string& preset) {
   app.add_option("--preset", preset, "auto, or paper: the steps and constants of Kim et al. 2013")
-      ->check(CLI::IsMember({"auto", "paper"}))
+      ->check(one_of({"auto", "paper"}))
       ->capture_default_str();
 }
 
@@ -66,6 +68,16 @@ void DepthRunOptions::add_all_but_preset_to(CLI::App& app) {
       ->type_name("DIR");
 }
 
+void DepthRunOptions::add_depth_to(CLI::App& app) {
+  app.add_option(
+         "--depth", depth,
+         "Range to test as distances in scene units, of a rig or of cameras that are known; "
+         "FAR may be inf")
+      ->expected(2)
+      ->excludes(app.get_option("--disparity"))
+      ->type_name("NEAR FAR");
+}
+
 BackendChoice DepthRunOptions::backend() const {
   if (device == "reference") return {"reference", ""};
   return {"opencl", device};
@@ -91,12 +103,14 @@ void require_memory_to_look(const LightField& light_field, const DepthOptions& o
 DepthOptions DepthRunOptions::resolve(LightField& light_field, const RunControl& control) const {
   DepthOptions options = preset_options(preset);
   if (!disparity.empty()) options.disparity = DisparityRange{disparity[0], disparity[1]};
+  if (!depth.empty()) options.disparity = range_of_depth(depth, light_field);
   if (hypotheses != 0) options.hypotheses = hypotheses;
   options.most_partners = most_partners;
   options.memory_bytes = memory_gib * double(1 << 30);
   options.work_folder = work_folder;
   options.check();
   check(light_field);
+  if (!disparity.empty()) check_inverse_depth(*options.disparity, light_field, control);
   require_memory_to_look(light_field, options);
   check_poses(light_field, input.open.convention.has_value(), control);
   settle_layout(input, light_field, control);

@@ -20,6 +20,7 @@ struct DepthRunOptions {
   InputOptions input;
   std::string preset = "auto";
   std::vector<double> disparity;  ///< empty or MIN MAX
+  std::vector<double> depth;      ///< empty or NEAR FAR
   int hypotheses = 0;
   int most_partners = 0;  ///< of unstructured views; 0: all
   std::string device;
@@ -29,6 +30,8 @@ struct DepthRunOptions {
   void add_to(CLI::App& app);
   /// The same without --preset and --partners.
   void add_all_but_preset_to(CLI::App& app);
+  /// --depth, of the commands that have no other option of this name; after add_to().
+  void add_depth_to(CLI::App& app);
   BackendChoice backend() const;
   MemoryBudget budget() const { return MemoryBudget(memory_gib); }
   /// The options of the engine. Checks the direction of travel, which may turn the axes of the

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "command.h"
+#include "did_you_mean.h"
 #include "error_map.h"
 #include "evaluate_report.h"
 #include "evaluate_scene.h"
@@ -176,7 +177,7 @@ Run evaluate_command(CLI::App& app) {
                  "centre, all, or a list of names: each against truth/VIEW.pfm of the TRUTH folder")
       ->capture_default_str();
   app.add_option("--metrics", options->metrics, "hci, middlebury or both")
-      ->check(CLI::IsMember({"hci", "middlebury"}))
+      ->check(one_of({"hci", "middlebury"}))
       ->delimiter(',')
       ->capture_default_str();
   app.add_option("--mask", options->masks,

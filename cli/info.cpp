@@ -13,8 +13,10 @@
 #include "cameras.h"
 #include "command.h"
 #include "depth_options_cli.h"
+#include "gigaray/adapters/sparse_file.h"
 #include "gigaray/reconstruct.h"
 #include "photographs.h"
+#include "result_info.h"
 #include "view_list.h"
 
 namespace gigaray::cli {
@@ -180,7 +182,9 @@ void print_text(const LightField& light_field, const DepthForecast& depth) {
   for (const std::string& note : light_field.notes) line("note", note);
 }
 
-void print_json(const LightField& light_field, const DepthForecast& depth) {
+/// sparse: what a .grl file holds beside it; null: it is none.
+void print_json(const LightField& light_field, const DepthForecast& depth,
+                const ordered_json& sparse) {
   const auto number = [](const std::optional<double>& value) {
     return value ? ordered_json(*value) : ordered_json(nullptr);
   };
@@ -223,26 +227,52 @@ void print_json(const LightField& light_field, const DepthForecast& depth) {
   root["left_out"] = ordered_json::array();
   for (const View& view : light_field.left_out)
     root["left_out"].push_back({{"name", view.name}, {"s", view.s}, {"t", view.t}});
+  if (!sparse.is_null()) root["sparse"] = sparse;
   fmt::print("{}\n", root.dump(2, ' ', false, ordered_json::error_handler_t::replace));
+}
+
+void tell_of_input(const InfoOptions& options, const RunControl& control) {
+  const InputOptions& input = options.run.input;
+  LightField light_field = open_views(input, control);
+  const DepthForecast depth = forecast_depth(light_field, options, control);
+  const bool is_sparse = light_field.format == kSparseFormat;
+  ordered_json sparse;
+  if (is_sparse) sparse = sparse_json(input.input, input.open.memory_bytes);
+  if (options.json) return print_json(light_field, depth, sparse);
+  print_text(light_field, depth);
+  if (is_sparse) print_sparse(sparse);
+}
+
+void tell_of_result(const InfoOptions& options, const std::string& kind, const CLI::App& app) {
+  for (const CLI::Option* option : app.get_options())
+    if (option->count() > 0 && option->get_name() != "INPUT" && option->get_name() != "--json")
+      throw Error(ErrorCode::kInvalidArgument,
+                  fmt::format("{}: goes with a light field; {} is a result of `{}`",
+                              option->get_name(), options.run.input.input.string(), kind));
+  const ordered_json result = result_json(options.run.input.input);
+  if (options.json)
+    fmt::print("{}\n", result.dump(2, ' ', false, ordered_json::error_handler_t::replace));
+  else
+    print_result(result);
 }
 
 }  // namespace
 
 Run info_command(CLI::App& app) {
-  app.description("What an input is: kind, views, positions, rig, range; what depth of it takes");
+  app.description(
+      "What an input is and what depth of it takes; what a result holds and what to type next");
   auto options = std::make_shared<InfoOptions>();
   options->run.add_to(app);
+  options->run.add_depth_to(app);
   app.add_option("--views", options->views, "Views that get depth, as `depth` takes them")
       ->capture_default_str();
   app.add_flag("--json", options->json, "Print JSON");
-  return [options](const RunControl& control) {
-    InputOptions& input = options->run.input;
-    LightField light_field = open_views(input, control);
-    const DepthForecast depth = forecast_depth(light_field, *options, control);
-    if (options->json)
-      print_json(light_field, depth);
+  return [options, &app](const RunControl& control) {
+    const std::string kind = kind_of_result(options->run.input.input);
+    if (kind.empty())
+      tell_of_input(*options, control);
     else
-      print_text(light_field, depth);
+      tell_of_result(*options, kind, app);
   };
 }
 

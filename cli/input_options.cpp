@@ -6,6 +6,7 @@
 #include <regex>
 #include <string>
 
+#include "did_you_mean.h"
 #include "gigaray/adapters/shrunk.h"
 #include "view_list.h"
 
@@ -22,7 +23,8 @@ Travel way_of(const std::string& word, const std::string& text) {
     throw CLI::ValidationError("--direction",
                                "'" + text +
                                    "' is not one of right, left, down, up, two of them as in "
-                                   "left,up, or auto");
+                                   "left,up, or auto" +
+                                   did_you_mean(word, {"right", "left", "down", "up", "auto"}));
   return found->second;
 }
 
@@ -68,6 +70,7 @@ LightField InputOptions::open_light_field(const std::filesystem::path& place,
   LightField light_field = gigaray::open_light_field(place, options);
   if (!without.empty())
     light_field = gigaray::without(light_field, parse_views(without, light_field));
+  rig.apply(light_field);
   return max_size > 0 ? shrunk(std::move(light_field), max_size) : light_field;
 }
 
@@ -118,6 +121,7 @@ void InputOptions::add_to(CLI::App& app) {
                  "Shrink pictures that have more pixels than this on a side (default: as they are)")
       ->check(CLI::Range(16, 1 << 20))
       ->type_name("PX");
+  rig.add_to(app);
 }
 
 }  // namespace gigaray::cli

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "gigaray/adapters/reader.h"
+#include "rig_options.h"
 
 namespace gigaray::cli {
 
@@ -15,8 +16,9 @@ namespace gigaray::cli {
 struct InputOptions {
   std::filesystem::path input;
   OpenOptions open;
-  int max_size = 0;           ///< px; larger pictures are shrunk; 0: none
-  std::string without;        ///< list of views; empty: none
+  int max_size = 0;     ///< px; larger pictures are shrunk; 0: none
+  std::string without;  ///< list of views; empty: none
+  RigOptions rig;
   bool find_cameras = false;  ///< of a folder of pictures, with COLMAP, even if they form a row
 
   void add_to(CLI::App& app);

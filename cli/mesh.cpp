@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "command.h"
+#include "did_you_mean.h"
 #include "gigaray/adapters/mesh_file.h"
 #include "gigaray/adapters/path_text.h"
 #include "gigaray/meshing/cloud_mesh.h"
@@ -175,7 +176,7 @@ Run mesh_command(CLI::App& app) {
   app.add_option("--method", settings->method,
                  "grid: depth maps triangulated on their pixels, cut where depth jumps; poisson: "
                  "smooth, closes gaps; front: triangles between the points of the cloud")
-      ->check(CLI::IsMember({"grid", "poisson", "front"}))
+      ->check(one_of({"grid", "poisson", "front"}))
       ->capture_default_str();
   app.add_option("--voxel", settings->voxel,
                  "poisson, front: points in a cube of this size become one, scene units")

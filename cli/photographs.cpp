@@ -79,6 +79,7 @@ fs::path find_cameras(const fs::path& photographs, const ColmapRunOptions& optio
     control.message(fmt::format("cameras as COLMAP found them before, in {}", work.string()));
     return work;
   }
+  control.message(fmt::format("COLMAP's database, model and log go to {}", work.string()));
   AtomicFolder folder(work, "gigaray cameras", output.rules({photographs, options.masks}));
   try {
     const ColmapRun run = run_colmap(photographs, folder.path(), options, control);
@@ -122,6 +123,11 @@ LightField open_or_find_cameras(InputOptions input, const OutputOption& output,
     throw Error(ErrorCode::kBadInput, twice);
   const std::string why = input.find_cameras ? "" : why_walk(input, control);
   if (!input.find_cameras && why.empty()) return input.open_light_field();
+  if (const std::string option = input.rig.stated(); !option.empty())
+    throw Error(ErrorCode::kInvalidArgument,
+                fmt::format("{}: goes with views at equal steps on a line; {}", option,
+                            why.empty() ? "with --find-cameras COLMAP finds the cameras"
+                                        : why + " (--direction states that they are one)"));
   if (!why.empty()) control.message(why + "; their cameras are found with COLMAP");
   ColmapRunOptions options;
   options.masks = input.open.masks;

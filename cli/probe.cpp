@@ -306,6 +306,7 @@ Run probe_command(CLI::App& app) {
       "coarser levels and\nother views have their say.");
   auto settings = std::make_shared<Settings>();
   settings->run.add_to(app);
+  settings->run.add_depth_to(app);
   app.add_option("--at", settings->at, "The pixel, from the top left corner, which is 0 0")
       ->expected(2)
       ->type_name("U V")

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "command.h"
+#include "did_you_mean.h"
 #include "gigaray/adapters/atomic_output.h"
 #include "gigaray/adapters/feature_tracks.h"
 #include "gigaray/adapters/light_field_json.h"
@@ -287,12 +288,12 @@ Run rectify_command(CLI::App& app) {
   app.add_option("--rotations", options->rotations,
                  "Each picture is rectified by its camera's own rotation or by one common to all; "
                  "best: whichever leaves less between the rows")
-      ->check(CLI::IsMember({"best", "own", "common"}))
+      ->check(one_of({"best", "own", "common"}))
       ->capture_default_str();
   app.add_option("--poses", options->poses,
                  "What to start from: the cameras that COLMAP finds, the order of the photographs, "
                  "or auto: COLMAP, the order where that fails; a COLMAP workspace has them")
-      ->check(CLI::IsMember({"auto", "colmap", "order"}))
+      ->check(one_of({"auto", "colmap", "order"}))
       ->capture_default_str();
   app.add_option("--rail-step", options->step_mm,
                  "Mean distance of neighbouring cameras: depth will be in mm")

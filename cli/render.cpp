@@ -292,7 +292,8 @@ void run(const Settings& settings, const RunControl& control) {
   if (!scene.rig().is_metric() && settings.refocus.empty())
     control.message(
         "focal length and view step aren't known: poses off the plane of the cameras "
-        "are true up to a projective map");
+        "are true up to a projective map (--focal-px and --baseline of `gigaray depth` state "
+        "them)");
   if (!settings.pose.empty()) render_pose(settings, scene, output, control);
   if (!settings.path.empty()) render_path(settings, scene, output, control);
   if (!settings.leave_out.empty()) leave_one_out(settings, scene, output, control);

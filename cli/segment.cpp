@@ -4,11 +4,13 @@
 
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
 
 #include "command.h"
+#include "did_you_mean.h"
 #include "gigaray/adapters/atomic_output.h"
 #include "gigaray/adapters/depth_result.h"
 #include "gigaray/adapters/maps.h"
@@ -19,6 +21,7 @@
 #include "gigaray/segmentation.h"
 #include "numbers.h"
 #include "output_option.h"
+#include "pixel_interval.h"
 #include "view_list.h"
 
 namespace gigaray::cli {
@@ -32,6 +35,9 @@ struct Settings {
   std::filesystem::path result, input;
   OutputOption output;
   double near = 0, far = 0;
+  bool is_interval = false;  ///< are these stated?
+  std::vector<int> at;       ///< empty or U V
+  std::optional<double> tolerance;
   std::string unit = "auto", views = "all";
   double min_confidence = 0;
   bool soft = false;
@@ -59,6 +65,11 @@ const char* name_of(Unit unit) {
   return "?";
 }
 
+/// Of the maps.
+Unit unit_of(const LightField& light_field) {
+  return light_field.kind == LightFieldKind::kUnstructured ? Unit::kInverseDepth : Unit::kDisparity;
+}
+
 /// Near is the larger disparity but the smaller depth, so the order of the two tells the unit.
 Interval interval_of(const Settings& settings, const LightField& light_field) {
   const auto bad = [](const std::string& what) { return Error(ErrorCode::kInvalidArgument, what); };
@@ -67,15 +78,13 @@ Interval interval_of(const Settings& settings, const LightField& light_field) {
   if (settings.unit == "disparity" && !rises)
     throw bad("--unit disparity: --near must be larger than --far, near things move more");
   if (settings.unit == "depth" && rises) throw bad("--unit depth: --near must be less than --far");
-  if (rises) {
-    const bool posed = light_field.kind == LightFieldKind::kUnstructured;
-    return {posed ? Unit::kInverseDepth : Unit::kDisparity,
-            {float(settings.far), float(settings.near)}};
-  }
+  if (rises) return {unit_of(light_field), {float(settings.far), float(settings.near)}};
   if (!has_metric_depth(light_field))
     throw bad(fmt::format(
         "--near {} is less than --far {}: these are distances, but {} has no depth in scene units; "
-        "state disparities (disparity.pfm), of which the near one is larger",
+        "state disparities (disparity.pfm), of which the near one is larger, or the rig to "
+        "`gigaray "
+        "depth` with --focal-px and --baseline",
         settings.near, settings.far, settings.result.string()));
   if (settings.near < 0) throw bad("--near: a distance can't be negative");
   return {Unit::kDepth, {float(settings.near), float(settings.far)}};
@@ -116,12 +125,51 @@ void write_masks(const std::filesystem::path& place, const Mask& mask, const Flo
   write_exr(place / "mask.exr", opacity);
 }
 
+/// Disparities of a view that are sure enough.
+FloatMap disparity_of(const DepthResult& depth, int view, double min_confidence) {
+  FloatMap map = depth.disparity(view);
+  if (min_confidence <= 0) return map;
+  const FloatMap confidence = depth.confidence(view);
+  for (std::size_t k = 0; k < map.size(); ++k)
+    if (!(confidence.data()[k] >= min_confidence)) map.data()[k] = kNoEstimate;
+  return map;
+}
+
+/// The interval in scene units, for people; empty where these are not known.
+std::string depth_text(const ValueInterval& values, const LightField& geometry) {
+  if (!has_metric_depth(geometry)) return {};
+  const FloatMap depth =
+      depth_from_disparity(FloatMap(2, 1, 1, {values.most, values.least}), geometry);
+  const std::string& unit = geometry.rig.unit;
+  return fmt::format(", depth {:.4g} … {}{}", depth(0, 0),
+                     std::isnan(depth(1, 0)) ? "infinity" : fmt::format("{:.4g}", depth(1, 0)),
+                     unit.empty() ? "" : " " + unit);
+}
+
+void print_choice(const PixelInterval& pixel, const Interval& interval, const Settings& settings,
+                  const DepthResult& depth) {
+  const LightField& geometry = depth.light_field();
+  const bool posed = geometry.kind == LightFieldKind::kUnstructured;
+  fmt::print("around {:.4g} at {} {} of {}{}; {}: --near {} --far {}\n", pixel.value(),
+             settings.at[0], settings.at[1], geometry.views[depth.top_view()].name,
+             depth_text(interval.values, geometry), posed ? "there the same" : "the same",
+             interval.values.most, interval.values.least);
+}
+
 void run(const Settings& settings, const RunControl& control) {
+  if (!settings.is_interval && settings.at.empty())
+    throw Error(ErrorCode::kInvalidArgument,
+                "say what belongs to the mask: --at U V, a pixel of it, or --near A --far B");
   AtomicFolder folder(settings.output.path, kSegmentFormat,
                       settings.output.rules({settings.result, settings.input}));
   const DepthResult depth(settings.result);
   const LightField& geometry = depth.light_field();
-  const Interval interval = interval_of(settings, geometry);
+  std::optional<PixelInterval> pixel;
+  if (!settings.at.empty())
+    pixel.emplace(depth, disparity_of(depth, depth.top_view(), settings.min_confidence),
+                  settings.at, settings.tolerance);
+  const Interval interval =
+      pixel ? Interval{unit_of(geometry), pixel->values()} : interval_of(settings, geometry);
   std::vector<int> views = parse_views(settings.views, geometry);
   if (views.empty()) views = all_views(geometry.num_views());
   const int centre = centre_view(geometry);
@@ -135,14 +183,9 @@ void run(const Settings& settings, const RunControl& control) {
   for (std::size_t i = 0; i < views.size(); ++i) {
     control.progress("segment", double(i), double(views.size()));
     const std::string& name = geometry.views[views[i]].name;
-    FloatMap map = depth.disparity(views[i]);
-    if (settings.min_confidence > 0) {
-      const FloatMap confidence = depth.confidence(views[i]);
-      for (std::size_t k = 0; k < map.size(); ++k)
-        if (!(confidence.data()[k] >= settings.min_confidence)) map.data()[k] = kNoEstimate;
-    }
+    FloatMap map = disparity_of(depth, views[i], settings.min_confidence);
     if (interval.unit == Unit::kDepth) map = depth_from_disparity(map, geometry);
-    segment(map, interval.values, mask);
+    segment(map, pixel ? pixel->values_in(views[i]) : interval.values, mask);
 
     FloatMap matte;
     if (settings.soft)
@@ -157,20 +200,52 @@ void run(const Settings& settings, const RunControl& control) {
     const auto inside = std::count(mask.begin(), mask.end(), 1);
     list.push_back({{"name", name}, {"share", double(inside) / double(mask.size())}});
   }
-  const ordered_json root{{"format", kSegmentFormat},
-                          {"version", 1},
-                          {"depth", path_text(std::filesystem::absolute(settings.result))},
-                          {"unit", name_of(interval.unit)},
-                          {"least", interval.values.least},
-                          {"most", interval.values.most},
-                          {"min_confidence", settings.min_confidence},
-                          {"views", list}};
+  ordered_json root{{"format", kSegmentFormat},
+                    {"version", 1},
+                    {"depth", path_text(std::filesystem::absolute(settings.result))},
+                    {"unit", name_of(interval.unit)},
+                    {"least", interval.values.least},
+                    {"most", interval.values.most},
+                    {"min_confidence", settings.min_confidence},
+                    {"views", list}};
+  if (pixel) root["at"] = pixel->json();
   write_file_atomically(folder.path() / "gigaray.json",
                         root.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n");
   folder.commit(control);
   control.progress("segment", 1, 1);
   fmt::print("{}: {} {:g} … {:g} in {} views\n", settings.output.path.string(),
              name_of(interval.unit), interval.values.least, interval.values.most, views.size());
+  if (pixel) print_choice(*pixel, interval, settings, depth);
+}
+
+void add_interval(CLI::App& app, const std::shared_ptr<Settings>& settings) {
+  CLI::Option* at =
+      app.add_option("--at", settings->at,
+                     "What lies at the depth of this pixel of the view at top level, which is the "
+                     "centre view as a rule; 0 0 is its top left corner")
+          ->expected(2)
+          ->type_name("U V");
+  app.add_option("--tolerance", settings->tolerance,
+                 "With --at: how far from its depth, px per view step, of photographs with cameras "
+                 "a share of the inverse depth (default: as far as the surface at the pixel goes "
+                 "without a jump, a tenth of all disparities at most)")
+      ->check(above_zero())
+      ->needs(at)
+      ->type_name("T");
+  CLI::Option* near = app.add_option("--near", settings->near, "Nearest value that belongs to it")
+                          ->excludes(at)
+                          ->type_name("A");
+  CLI::Option* far = app.add_option("--far", settings->far, "Farthest value that belongs to it")
+                         ->excludes(at)
+                         ->type_name("B");
+  near->needs(far);
+  far->needs(near);
+  far->each([settings](const std::string&) { settings->is_interval = true; });
+  app.add_option("--unit", settings->unit,
+                 "disparity or depth: refuse a pair in the other order; auto: by their order")
+      ->check(one_of({"auto", "disparity", "depth"}))
+      ->excludes(at)
+      ->capture_default_str();
 }
 
 }  // namespace
@@ -185,16 +260,7 @@ Run segment_command(CLI::App& app) {
   app.add_option("RESULT", settings->result, "What `gigaray depth` wrote")
       ->type_name("OUT")
       ->required();
-  app.add_option("--near", settings->near, "Nearest value that belongs to it")
-      ->type_name("A")
-      ->required();
-  app.add_option("--far", settings->far, "Farthest value that belongs to it")
-      ->type_name("B")
-      ->required();
-  app.add_option("--unit", settings->unit,
-                 "disparity or depth: refuse a pair in the other order; auto: by their order")
-      ->check(CLI::IsMember({"auto", "disparity", "depth"}))
-      ->capture_default_str();
+  add_interval(app, settings);
   settings->output
       .add_to(app, "Folder for VIEW/mask.png, that of the centre view also at top level")
       ->required();
@@ -213,7 +279,7 @@ Run segment_command(CLI::App& app) {
                  "With --soft: where the pictures are, when they are no more where they were")
       ->type_name("INPUT");
   app.add_option("--format", settings->formats, "exr: VIEW/matte.exr or mask.exr too")
-      ->check(CLI::IsMember({"exr"}))
+      ->check(one_of({"exr"}))
       ->delimiter(',');
   return [settings](const RunControl& control) { run(*settings, control); };
 }

@@ -8,6 +8,7 @@
 #include <list>
 #include <memory>
 
+#include "cameras.h"
 #include "depth_scene.h"
 #include "gigaray/ray_sampler.h"
 #include "gigaray/rig_cameras.h"
@@ -91,7 +92,10 @@ DepthViews SurfaceInput::open(const RunControl& control) const {
   RigCameras rig(scene.light_field, scene.range.min);
   if (!rig.is_metric())
     control.message(
-        "focal length and view step are not known: the scene keeps straight lines but not angles");
+        "focal length and view step are not known: the scene keeps straight lines but not angles "
+        "(--focal-px and --baseline of `gigaray depth` state them)");
+  if (const std::string note = note_on_scale(scene.light_field); !note.empty())
+    control.message(note);
   DepthViews result;
   for (const int view : chosen) result.cameras.push_back(rig.camera(view));
   const auto reader =

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "command.h"
+#include "did_you_mean.h"
 #include "gigaray/adapters/atomic_output.h"
 #include "gigaray/adapters/light_field_json.h"
 #include "gigaray/adapters/maps.h"
@@ -99,13 +100,16 @@ void add_path(CLI::App& app, SynthOptions& options, CLI::Option& grid, CLI::Opti
   using Shape = SyntheticPath::Shape;
   const std::map<std::string, Shape> shapes = {
       {"line", Shape::kLine}, {"arc", Shape::kArc}, {"walk", Shape::kWalk}};
-  auto* path = app.add_option("--path", options.shape,
-                              "Photographs with exact depth and a COLMAP model, taken along a "
-                              "line, an arc or a walk; the scene is 1 to 2.5 m away")
-                   ->transform(CLI::CheckedTransformer(shapes))
-                   ->option_text("line|arc|walk")
-                   ->excludes(&grid)
-                   ->excludes(&disparity);
+  auto* path =
+      app.add_option_function<std::string>(
+             "--path",
+             [&options, shapes](const std::string& name) { options.shape = shapes.at(name); },
+             "Photographs with exact depth and a COLMAP model, taken along a "
+             "line, an arc or a walk; the scene is 1 to 2.5 m away")
+          ->check(one_of({"line", "arc", "walk"}))
+          ->option_text("line|arc|walk")
+          ->excludes(&grid)
+          ->excludes(&disparity);
   const auto add = [&](const char* name, double& value, const char* help) {
     app.add_option(name, value, help)->capture_default_str()->needs(path);
   };
@@ -128,6 +132,7 @@ Run synth_command(CLI::App& app) {
   SyntheticOptions& scene = options->scene;
   app.add_option("SCENE", scene.scene,
                  fmt::format("One of {}", fmt::join(synthetic_scene_names(), ", ")))
+      ->check(one_of(synthetic_scene_names()).description(""))
       ->required();
   options->out.add_to(app, "Folder to write")->required();
   app.add_option("--width", scene.width, "px")->capture_default_str();

@@ -7,6 +7,8 @@
 #include <optional>
 #include <sstream>
 
+#include "did_you_mean.h"
+
 namespace gigaray::cli {
 namespace {
 
@@ -27,7 +29,10 @@ int parse_view(const std::string& text, const LightField& light_field) {
   for (int i = 0; i < light_field.num_views(); ++i)
     if (light_field.views[i].name == text) return i;
   if (const auto index = index_of(text, light_field)) return *index;
-  throw Error(ErrorCode::kInvalidArgument, "view " + text + ": no view has this name or index");
+  std::vector<std::string> known{"centre"};
+  for (const View& view : light_field.views) known.push_back(view.name);
+  throw Error(ErrorCode::kInvalidArgument,
+              "view " + text + ": no view has this name or index" + did_you_mean(text, known));
 }
 
 std::vector<int> parse_views(const std::string& text, const LightField& light_field) {

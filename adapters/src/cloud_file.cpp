@@ -5,23 +5,23 @@
 #include <string>
 #include <utility>
 
+#include "pcd.h"
 #include "ply.h"
 
 namespace gigaray {
-namespace {
 
-std::string header(std::uint64_t points, const Eigen::Vector3d& origin) {
-  return ply::begin_header(points, origin,
+CloudFile::CloudFile(AtomicFile file, CloudFormat format)
+    : file_(std::move(file)), format_(format) {}
+
+std::string CloudFile::header(const Eigen::Vector3d& origin) const {
+  if (format_ == CloudFormat::kPcd) return pcd::header(points_, origin);
+  return ply::begin_header(points_, origin,
                            {"x", "y", "z", "nx", "ny", "nz", "confidence", "support"}) +
          "end_header\n";
 }
 
-}  // namespace
-
-CloudFile::CloudFile(AtomicFile file) : file_(std::move(file)) {}
-
 void CloudFile::add(const PointCloud& cloud) {
-  if (!origin_) file_.write(header(0, *(origin_ = cloud.origin)));
+  if (!origin_) file_.write(header(*(origin_ = cloud.origin)));
   GIGARAY_CHECK(cloud.origin == *origin_);
   std::string bytes;
   for (std::size_t i = 0; i < cloud.size(); ++i) {
@@ -30,7 +30,10 @@ void CloudFile::add(const PointCloud& cloud) {
     for (const float number :
          {p.x(), p.y(), p.z(), n.x(), n.y(), n.z(), cloud.confidences[i], cloud.supports[i]})
       ply::append(bytes, number);
-    ply::append(bytes, cloud.colours[i]);
+    if (format_ == CloudFormat::kPcd)
+      ply::append(bytes, pcd::packed(cloud.colours[i]));
+    else
+      ply::append(bytes, cloud.colours[i]);
     ++points_;
   }
   file_.write(bytes);
@@ -38,9 +41,9 @@ void CloudFile::add(const PointCloud& cloud) {
 
 void CloudFile::commit(const RunControl& control) {
   if (origin_)
-    file_.write_at_begin(header(points_, *origin_));
+    file_.write_at_begin(header(*origin_));
   else
-    file_.write(header(0, Eigen::Vector3d::Zero()));
+    file_.write(header(Eigen::Vector3d::Zero()));
   file_.commit(control);
 }
 

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
-#include <vector>
 
+#include "agreed_points.h"
 #include "gigaray/adapters/colmap_model.h"
 #include "gigaray/camera.h"
 #include "gigaray/image.h"
@@ -27,19 +27,11 @@ class ColmapDense {
   void finish();
 
  private:
-  /// Some pixels of a view, on a grid.
-  struct Raster {
-    Camera camera;
-    int step = 1;  ///< px
-    FloatMap depth;
-    Image<std::uint16_t> colours;
-  };
   void add_points();
 
   std::filesystem::path folder_;
   ColmapModel model_;
-  std::vector<Raster> rasters_;
-  int bit_depth_ = 8;
+  AgreedPoints points_;
 };
 
 }  // namespace gigaray

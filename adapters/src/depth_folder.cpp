@@ -9,6 +9,7 @@
 #include "gigaray/adapters/pictures.h"
 #include "gigaray/error.h"
 #include "gigaray/metric_depth.h"
+#include "nerfstudio_scene.h"
 
 namespace gigaray {
 namespace {
@@ -28,15 +29,27 @@ DepthFolder::DepthFolder(const std::filesystem::path& target, std::set<MapFormat
                          OutputRules rules)
     : folder_(target, kDepthFormat, std::move(rules)), formats_(std::move(formats)) {}
 
-void DepthFolder::describe(LightField light_field) {
+void DepthFolder::describe(LightField light_field, std::vector<Camera> cameras) {
   light_field_ = std::move(light_field);
-  if (!formats_.contains(MapFormat::kColmap)) return;
-  if (light_field_.kind != LightFieldKind::kUnstructured)
-    throw Error(ErrorCode::kInvalidArgument,
-                "--format colmap: goes with photographs whose cameras are known, not with a light "
-                "field of the format " +
-                    light_field_.format);
-  colmap_ = std::make_unique<ColmapDense>(folder_.path() / "colmap");
+  const bool unstructured = light_field_.kind == LightFieldKind::kUnstructured;
+  cameras_ = unstructured ? light_field_.cameras : std::move(cameras);
+  if (formats_.contains(MapFormat::kColmap)) {
+    if (!unstructured)
+      throw Error(
+          ErrorCode::kInvalidArgument,
+          "--format colmap: goes with photographs whose cameras are known, not with a light "
+          "field of the format " +
+              light_field_.format);
+    colmap_ = std::make_unique<ColmapDense>(folder_.path() / "colmap");
+  }
+  if (formats_.contains(MapFormat::kNerfstudio)) {
+    if (!has_metric_depth(light_field_))
+      throw Error(ErrorCode::kInvalidArgument,
+                  "--format nerfstudio: needs the cameras; state the rig with --focal-px and "
+                  "--baseline");
+    GIGARAY_CHECK(cameras_.size() == light_field_.views.size());
+    nerfstudio_ = std::make_unique<NerfstudioScene>(folder_.path() / "nerfstudio");
+  }
 }
 
 DepthFolder::~DepthFolder() = default;
@@ -60,18 +73,25 @@ void DepthFolder::write_maps(const std::filesystem::path& folder, const FloatMap
     write_png16(folder / "disparity16.png", disparity, pictured);
 }
 
-void DepthFolder::write_unstructured(const std::filesystem::path& folder, int view_idx,
-                                     const FloatMap& disparity, bool is_centre) {
-  const Camera& camera = light_field_.cameras[view_idx];
+void DepthFolder::write_picture(const std::filesystem::path& folder, int view_idx,
+                                const FloatMap& disparity, bool is_centre) {
+  const bool unstructured = light_field_.kind == LightFieldKind::kUnstructured;
+  if (!unstructured && !nerfstudio_) return;
   const int bit_depth = light_field_.pixels->bit_depth();
   Image<std::uint16_t> picture = read_view(light_field_, view_idx);
   take_mask(picture);
-  picture = cropped(picture, camera.width, camera.height);
-  write_png(folder / "picture.png", picture, bit_depth);
-  if (is_centre) write_png(folder_.path() / "picture.png", picture, bit_depth);
-  if (colmap_)
-    colmap_->add(light_field_.views[view_idx].name, camera, picture, bit_depth,
-                 depth_from_disparity(disparity, light_field_));
+  picture = cropped(picture, disparity.width(), disparity.height());
+  if (unstructured) {
+    write_png(folder / "picture.png", picture, bit_depth);
+    if (is_centre) write_png(folder_.path() / "picture.png", picture, bit_depth);
+  }
+  const std::string& name = light_field_.views[view_idx].name;
+  if (colmap_ || nerfstudio_) {
+    const FloatMap depth = depth_from_disparity(disparity, light_field_);
+    if (colmap_) colmap_->add(name, cameras_[view_idx], picture, bit_depth, depth);
+    if (nerfstudio_)
+      nerfstudio_->add(name, cameras_[view_idx], picture, bit_depth, depth, folder / "depth.pfm");
+  }
 }
 
 void DepthFolder::write_view(int view_idx, FloatMap disparity, FloatMap confidence,
@@ -85,14 +105,15 @@ void DepthFolder::write_view(int view_idx, FloatMap disparity, FloatMap confiden
     const Camera& camera = light_field_.cameras[view_idx];
     disparity = cropped(disparity, camera.width, camera.height);
     confidence = cropped(confidence, camera.width, camera.height);
-    write_unstructured(folder, view_idx, disparity, is_centre);
   }
+  write_picture(folder, view_idx, disparity, is_centre);
   write_maps(folder, disparity, confidence, pictured);
   if (is_centre) write_maps(folder_.path(), disparity, confidence, pictured);
 }
 
 void DepthFolder::commit(const std::string& json, const RunControl& control) {
   if (colmap_) colmap_->finish();
+  if (nerfstudio_) nerfstudio_->finish();
   write_file_atomically(folder_.path() / "gigaray.json", json + "\n");
   folder_.commit(control);
 }

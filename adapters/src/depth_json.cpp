@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Gigaray authors
 // gigaray.json of an output folder of `gigaray depth`; docs/formats.md.
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "described_light_field.h"
@@ -40,6 +41,13 @@ LightField parse(const json& root) {
   return light_field;
 }
 
+int top_view_of(const json& root, const LightField& light_field) {
+  const std::string name = root.value("top_level_view", "");
+  const auto found = std::ranges::find(light_field.views, name, &View::name);
+  if (found != light_field.views.end()) return int(found - light_field.views.begin());
+  return light_field.views.empty() ? 0 : centre_view(light_field);
+}
+
 }  // namespace
 
 DescribedDepth parse_depth_json(std::string_view text, const std::string& where) {
@@ -56,6 +64,8 @@ DescribedDepth parse_depth_json(std::string_view text, const std::string& where)
     described.input = path_of_text(root.at("input").get<std::string>());
     const json& range = root.at("options").at("disparity_range");
     described.searched = {range.at(0), range.at(1)};
+    described.hypotheses = root.at("options").value("hypotheses", 0);
+    described.top_view = top_view_of(root, described.light_field);
   } catch (const json::exception& problem) {
     throw bad(std::string("an entry is missing or of the wrong type (") + problem.what() + ")");
   } catch (const Error& problem) {

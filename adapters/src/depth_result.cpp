@@ -94,6 +94,8 @@ DepthResult::DepthResult(const fs::path& folder) : folder_(folder) {
   light_field_ = std::move(described.light_field);
   input_ = std::move(described.input);
   searched_ = described.searched;
+  hypotheses_ = described.hypotheses;
+  top_view_ = described.top_view;
 }
 
 FloatMap DepthResult::map(int view, const char* name) const {

@@ -35,6 +35,8 @@ struct DescribedDepth {
   LightField light_field;  ///< of the views with depth, without pixels
   std::filesystem::path input;
   DisparityRange searched;
+  int hypotheses = 0;  ///< 0: not stated
+  int top_view = 0;    ///< the one whose maps stand at top level
 };
 /// Parses its text. Throws Error(kBadInput) beginning with `where`.
 DescribedDepth parse_depth_json(std::string_view text, const std::string& where);

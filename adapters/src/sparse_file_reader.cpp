@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 
 class SparseFileReader : public Reader {
  public:
-  std::string name() const override { return "sparse light field"; }
+  std::string name() const override { return kSparseFormat; }
 
   ProbeResult probe(const fs::path& input) const override {
     std::error_code ignored;

@@ -161,5 +161,33 @@ TEST_F(MeshFile, CloudStatesItsOriginToo) {
   EXPECT_EQ(x, 4);
 }
 
+TEST_F(MeshFile, CloudAsPcdHasTheFieldsOfPcl) {
+  PointCloud cloud;
+  cloud.origin = {4200000, 172000, 1e-3};
+  cloud.positions = {{1, 2, 3}, {4, 5, 6}};
+  cloud.normals.resize(2, Eigen::Vector3f(0, 0, -1));
+  cloud.colours.resize(2, Rgb8{1, 2, 3});
+  cloud.confidences = cloud.supports = {0.5f, 2};
+  CloudFile file(AtomicFile(folder / "a.pcd"), CloudFormat::kPcd);
+  file.add(cloud);
+  file.add(cloud);
+  file.commit();
+  const std::string pcd = read("a.pcd");
+  const std::string end = "DATA binary\n";
+  const std::size_t body = pcd.find(end) + end.size();
+  EXPECT_TRUE(pcd.starts_with("# .PCD v0.7")) << pcd;
+  for (const char* line : {"\n# origin 4200000 172000 0.001\n", "\nWIDTH 4\n", "\nPOINTS 4\n",
+                           "FIELDS x y z normal_x normal_y normal_z confidence support rgb\n"})
+    EXPECT_NE(pcd.find(line), std::string::npos) << line << pcd.substr(0, body);
+  constexpr std::size_t kPoint = 36;
+  ASSERT_EQ(pcd.size(), body + 4 * kPoint);
+  float x = 0;
+  std::memcpy(&x, pcd.data() + body + 3 * kPoint, sizeof x);
+  EXPECT_EQ(x, 4);
+  std::uint32_t rgb = 0;
+  std::memcpy(&rgb, pcd.data() + body + 8 * sizeof(float), sizeof rgb);
+  EXPECT_EQ(rgb, 0x010203u);
+}
+
 }  // namespace
 }  // namespace gigaray

@@ -15,7 +15,14 @@
 namespace gigaray {
 namespace {
 
-class Frame : public ProgramTest {};
+class Frame : public ProgramTest {
+ protected:
+  void save_pictures(const std::string& name) const {
+    std::filesystem::create_directories(folder / name);
+    for (const std::string picture : {"v1.png", "v2.png"})
+      write_png(folder / name / picture, Image<std::uint16_t>(9, 7, 3, 77), 8);
+  }
+};
 
 class Info : public ProgramTest {
  protected:
@@ -53,6 +60,65 @@ TEST_F(Frame, WrongUsageEndsWithTwo) {
   expect_failure("info", 2, "gigaray info:", "INPUT");
   expect_failure("info . --nonsense", 2, "--nonsense", "gigaray info --help");
   expect_failure("info . --direction sideways", 2, "--direction", "sideways");
+}
+
+TEST_F(Frame, HelpGroupsTheCommandsInTheOrderOfUse) {
+  const std::string help = run("--help").out;
+  std::size_t before = 0;
+  for (const std::string word :
+       {"Look first", "  info ", "Make depth", "  depth ", "Use it:", "  segment ", "Keep it",
+        "  encode ", "Measure it", "  evaluate ", "Try it", "  synth "}) {
+    const std::size_t at = help.find(word);
+    ASSERT_NE(at, std::string::npos) << word << "\n" << help;
+    EXPECT_GT(at, before) << word << "\n" << help;
+    before = at;
+  }
+}
+
+TEST_F(Frame, HelpIsFoundWhereItIsLookedFor) {
+  const std::string all = run("--help").out, of_depth = run("depth --help").out;
+  EXPECT_EQ(run("help").out, all);
+  EXPECT_EQ(run("-h").out, all);
+  EXPECT_EQ(run("help --help").out, all);
+  for (const std::string line :
+       {"help depth", "depth help", "--help depth", "-h depth", "depth -h"}) {
+    const Result result = run(line);
+    EXPECT_EQ(result.exit_code, 0) << line;
+    EXPECT_EQ(result.out, of_depth) << line;
+  }
+  expect_failure("help dpeth", 2, "no command 'dpeth'", "did you mean depth?");
+  // A folder of this name is an input.
+  save_pictures("help");
+  EXPECT_NE(run("info help").out.find("image sequence"), std::string::npos);
+}
+
+TEST_F(Frame, TyposAreAnsweredWithWhatWasMeant) {
+  expect_failure("dpeth made", 2, "no command 'dpeth'", "did you mean depth?");
+  expect_failure("seg out", 2, "did you mean segment?");
+  expect_failure("Depth", 2, "did you mean depth?");
+  expect_failure("depth made -o out --disparty 0 1", 2, "--disparty", "did you mean --disparity?");
+  expect_failure("depth made -o out --disparty=0", 2, "no option --disparty;", "--disparity?");
+  expect_failure("depth made --ouput out", 2, "no option --ouput", "did you mean --output?");
+  expect_failure("depth made -o out --max_size 9", 2, "did you mean --max-size?");
+  expect_failure("segment out -o x --toleranz 1 --at 1 1", 2, "did you mean --tolerance?");
+  expect_failure("--versoin", 2, "did you mean --version?");
+  expect_failure("depth made -o out --format png61", 2, "--format", "did you mean png16?");
+  expect_failure("depth made -o out --preset atuo", 2, "--preset", "did you mean auto?");
+  expect_failure("mesh out -o x.ply --method possion", 2, "did you mean poisson?");
+  expect_failure("synth gardn -o x", 2, "'gardn'", "did you mean garden?");
+  expect_failure("synth planes -o x --path lnie", 2, "--path", "did you mean line?");
+  expect_failure("info made --direction rigth", 2, "--direction", "did you mean right?");
+  save_pictures("row");
+  expect_failure("depth row -o x --direction right --views v_1 --disparity 0 1", 2, "v_1", "v1");
+}
+
+TEST_F(Frame, WhatIsNearNothingGetsNoSuggestion) {
+  for (const std::string line :
+       {"nonsense", "info . --nonsense", "depth made -o out --format tiff", "x"}) {
+    const Result result = run(line);
+    EXPECT_EQ(result.exit_code, 2) << line;
+    EXPECT_EQ(result.err.find("did you mean"), std::string::npos) << line << ": " << result.err;
+  }
 }
 
 TEST_F(Frame, ResultThatCannotBePrintedIsAFailure) {

@@ -58,6 +58,12 @@ TEST_F(Photographs, AloneGetTheirCamerasFromColmap) {
       run(std::string("depth walk/images -o out --find-cameras --views centre") + kFast);
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_NE(result.err.find("COLMAP found the cameras of 6 of 6"), std::string::npos) << result.err;
+  // Where its files go is said before it starts; and what its scale is.
+  EXPECT_LT(result.err.find("out.colmap"), result.err.find("COLMAP found"));
+  EXPECT_NE(result.err.find("which COLMAP chose, not in metres"), std::string::npos) << result.err;
+  const Result cloud = run("cloud out -o points.ply --min-support 0");
+  EXPECT_NE(cloud.err.find("not in metres"), std::string::npos) << cloud.err;
+  std::filesystem::remove(folder / "points.ply");
   EXPECT_EQ(names_in("."), (Names{"out", "out.colmap", "walk"}));
   // COLMAP's scale is its own.
   const std::string view = report("out").at("centre");

@@ -62,6 +62,86 @@ TEST_F(SegmentCommand, TheOrderOfNearAndFarTellsDisparityFromDepth) {
   EXPECT_EQ(about.at("views")[0].at("share"), double(known) / double(depth.size()));
 }
 
+/// The panel of `planes` that is nearest, and a pixel of it.
+struct Nearest {
+  int u = 0, v = 0;
+  float value = -99;
+  std::string option() const { return " --at " + std::to_string(u) + " " + std::to_string(v); }
+};
+Nearest nearest_of(const FloatMap& map) {
+  Nearest nearest;
+  for (int v = 2; v < map.height() - 2; ++v)
+    for (int u = 2; u < map.width() - 2; ++u)
+      if (map(u, v) > nearest.value) nearest = {u, v, map(u, v)};
+  return nearest;
+}
+
+TEST_F(SegmentCommand, APixelStandsForItsSurface) {
+  const FloatMap map = read_pfm(folder / "depth/disparity.pfm");
+  const Nearest nearest = nearest_of(map);
+  const std::string at = nearest.option();
+  const Result result = run("segment depth -o masks" + at);
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const json about = json::parse(text_of("masks/gigaray.json"));
+  EXPECT_EQ(about.at("unit"), "disparity");
+  EXPECT_EQ(about.at("at").at("view"), "view_002");
+  EXPECT_NEAR(about.at("at").at("value"), nearest.value, 0.1);
+  EXPECT_LT(about.at("least"), nearest.value);
+  EXPECT_GT(about.at("least"), nearest.value - 0.5) << "no farther than its surface";
+  EXPECT_EQ(mask("masks/mask.png").at<std::uint8_t>(nearest.v, nearest.u), 255);
+  EXPECT_NE(result.out.find(" m;"), std::string::npos) << "in metres: " << result.out;
+  // The numbers that it prints state the same masks.
+  const std::string stated = result.out.substr(result.out.find("--near"));
+  ASSERT_EQ(run("segment depth -o again " + stated.substr(0, stated.find('\n'))).exit_code, 0);
+  EXPECT_EQ(json::parse(text_of("again/gigaray.json")).at("views"), about.at("views"));
+}
+
+TEST_F(SegmentCommand, ToleranceIsDisparityToBothSides) {
+  const FloatMap map = read_pfm(folder / "depth/disparity.pfm");
+  const Nearest nearest = nearest_of(map);
+  const std::string at = nearest.option();
+  ASSERT_EQ(run("segment depth -o masks --tolerance 0.25" + at).exit_code, 0);
+  const json about = json::parse(text_of("masks/gigaray.json"));
+  const double value = about.at("at").at("value");
+  EXPECT_NEAR(about.at("least"), value - 0.25, 1e-6);
+  EXPECT_NEAR(about.at("most"), value + 0.25, 1e-6);
+}
+
+TEST_F(SegmentCommand, OfPhotographsThePointIsFollowedFromViewToView) {
+  ASSERT_EQ(run("synth plaster --path arc --extent 1.5 -o walk --views 6 --width 64 --height 48 "
+                "--samples 1")
+                .exit_code,
+            0);
+  ASSERT_EQ(run("depth walk -o walked").exit_code, 0);
+  ASSERT_EQ(run("segment walked --at 32 24 --tolerance 0.1 -o masks").exit_code, 0);
+  const json about = json::parse(text_of("masks/gigaray.json"));
+  EXPECT_EQ(about.at("unit"), "inverse depth");
+  const double value = about.at("at").at("value");
+  EXPECT_NEAR(about.at("least"), 0.9 * value, 1e-6);
+  EXPECT_NEAR(about.at("most"), 1.1 * value, 1e-6);
+  for (const json& view : about.at("views")) EXPECT_GT(view.at("share"), 0.02) << view;
+  expect_refusal("segment walked --at 32 24 --tolerance 1 -o x", 2, "--tolerance 1", "less than 1");
+}
+
+TEST_F(SegmentCommand, APixelThatCantBeMeantIsRefused) {
+  expect_refusal("segment depth -o x --at 48 3", 2, "--at 48 3", "48 × 37 px");
+  expect_refusal("segment depth -o x --at -1 3", 2, "--at -1 3", "outside");
+  expect_refusal("segment depth -o x --at 3 1.5", 2, "--at");
+  expect_refusal("segment depth -o x --at 3", 2, "--at");
+  expect_refusal("segment depth -o x --at 3 3 --near 1 --far 0", 2, "--at", "--near");
+  expect_refusal("segment depth -o x --at 3 3 --unit depth", 2, "--at", "--unit");
+  expect_refusal("segment depth -o x --at 3 3 --tolerance 0", 2, "--tolerance", "above 0");
+  expect_refusal("segment depth -o x --at 3 3 --tolerance nan", 2, "--tolerance");
+  expect_refusal("segment depth -o x --tolerance 1", 2, "--tolerance requires --at");
+  expect_refusal("segment depth -o x", 2, "--at U V", "--near");
+  expect_refusal("segment made -o x --at 3 3", 1, "no result of `gigaray depth`");
+  expect_refusal("segment depth -o x --at 3 3 --min-confidence 2", 2, "no estimate");
+  FloatMap map = read_pfm(folder / "depth/view_002/disparity.pfm");
+  map(3, 3) = std::nanf("");
+  write_pfm(folder / "depth/view_002/disparity.pfm", map);
+  expect_refusal("segment depth -o x --at 3 3", 2, "no estimate there", "nearest pixel");
+}
+
 TEST_F(SegmentCommand, SoftEdgesAsPngAndExr) {
   const Result result =
       run("segment depth -o masks --near 99 --far 0.6 --soft --radius 3 --format exr");

@@ -29,4 +29,12 @@ FloatMap depth_from_disparity(const FloatMap& disparity, const LightField& light
   return depth;
 }
 
+double disparity_of_depth(double depth, const LightField& light_field) {
+  GIGARAY_CHECK(has_metric_depth(light_field) && depth > 0);
+  if (light_field.kind == LightFieldKind::kUnstructured) return 1 / depth;
+  const RigGeometry& rig = light_field.rig;
+  const double scale = *rig.focal_px * *rig.baseline;
+  return scale / depth - (rig.focus_distance ? scale / *rig.focus_distance : 0);
+}
+
 }  // namespace gigaray

@@ -4,18 +4,22 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 
 #include "gigaray/adapters/atomic_output.h"
 #include "gigaray/point_cloud.h"
 
 namespace gigaray {
 
+enum class CloudFormat { kPly, kPcd };
+
 /// Writes a point cloud piece by piece as binary PLY, little endian: x y z nx ny nz confidence
-/// support (float), red green blue (uchar). An origin other than 0, the same for all pieces, is
-/// stated as "comment origin X Y Z". The file appears with commit(). Throws as AtomicFile does.
+/// support (float), red green blue (uchar); or as binary PCD with the same fields in PCL's names.
+/// An origin other than 0, the same for all pieces, is stated as a comment "origin X Y Z". The file
+/// appears with commit(). Throws as AtomicFile does.
 class CloudFile {
  public:
-  explicit CloudFile(AtomicFile file);
+  explicit CloudFile(AtomicFile file, CloudFormat format = CloudFormat::kPly);
 
   /// Points whose position or normal is not finite are left out.
   void add(const PointCloud& cloud);
@@ -24,7 +28,10 @@ class CloudFile {
   std::uint64_t points() const { return points_; }
 
  private:
+  std::string header(const Eigen::Vector3d& origin) const;
+
   AtomicFile file_;
+  CloudFormat format_;
   std::optional<Eigen::Vector3d> origin_;  ///< of the first piece
   std::uint64_t points_ = 0;
 };

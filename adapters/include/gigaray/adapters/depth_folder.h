@@ -6,6 +6,7 @@
 #include <memory>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "gigaray/adapters/atomic_output.h"
 #include "gigaray/image.h"
@@ -14,6 +15,7 @@
 namespace gigaray {
 
 class ColmapDense;
+class NerfstudioScene;
 
 /// Value of "format" in the gigaray.json of an output folder of `gigaray depth`.
 inline constexpr const char* kDepthFormat = "gigaray depth";
@@ -24,6 +26,7 @@ enum class MapFormat {
   kNpy,
   kPng16,
   kColmap,  ///< unstructured: a dense workspace in the folder "colmap", for `colmap stereo_fusion`
+  kNerfstudio,  ///< where depth is known: the folder "nerfstudio" with transforms.json
 };
 
 /// The output folder of `gigaray depth` (docs/formats.md): VIEW/disparity.pfm, VIEW/confidence.pfm
@@ -36,8 +39,9 @@ class DepthFolder {
   DepthFolder(const std::filesystem::path& target, std::set<MapFormat> formats, OutputRules rules);
   ~DepthFolder();
 
-  /// Before the first view. Throws Error(kInvalidArgument) for a format that doesn't go with it.
-  void describe(LightField light_field);
+  /// Before the first view. cameras: of 3D and 4D light fields, for kNerfstudio. Throws
+  /// Error(kInvalidArgument) for a format that doesn't go with it.
+  void describe(LightField light_field, std::vector<Camera> cameras = {});
 
   /// disparity, confidence: (v, u) of the view, NaN where there is no estimate. Cut to the size of
   /// the view's own picture. pictured: range of the colours of depth.png and of 16-bit PNGs.
@@ -50,13 +54,15 @@ class DepthFolder {
  private:
   void write_maps(const std::filesystem::path& folder, const FloatMap& disparity,
                   const FloatMap& confidence, DisparityRange pictured) const;
-  void write_unstructured(const std::filesystem::path& folder, int view_idx,
-                          const FloatMap& disparity, bool is_centre);
+  void write_picture(const std::filesystem::path& folder, int view_idx, const FloatMap& disparity,
+                     bool is_centre);
 
   AtomicFolder folder_;
   std::set<MapFormat> formats_;
   LightField light_field_;
-  std::unique_ptr<ColmapDense> colmap_;  ///< if asked for
+  std::vector<Camera> cameras_;
+  std::unique_ptr<ColmapDense> colmap_;          ///< if asked for
+  std::unique_ptr<NerfstudioScene> nerfstudio_;  ///< the same
 };
 
 }  // namespace gigaray

@@ -24,6 +24,14 @@ class DepthResult {
 
   /// Range of disparities (inverse depths) that was searched.
   DisparityRange searched() const { return searched_; }
+  /// Number of hypotheses in it; 0: not stated.
+  int hypotheses() const { return hypotheses_; }
+
+  /// Index of the view whose maps stand at top level too: the centre view, or the one nearest to
+  /// it that has depth.
+  int top_view() const { return top_view_; }
+  /// What depth was computed of; it may be gone.
+  const std::filesystem::path& input() const { return input_; }
 
   /// (v, u) of the view, in the unit of ViewDepth; NaN: no estimate. Of an unstructured view as
   /// large as its own camera.
@@ -44,6 +52,7 @@ class DepthResult {
   std::filesystem::path folder_, input_;
   LightField light_field_;
   DisparityRange searched_;
+  int hypotheses_ = 0, top_view_ = 0;
 };
 
 /// A camera of a JSON file: the object "camera" in it, or the whole file, as in gigaray.json of

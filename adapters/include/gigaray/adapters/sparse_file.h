@@ -13,6 +13,9 @@
 
 namespace gigaray {
 
+/// LightField::format of a .grl file.
+inline constexpr const char* kSparseFormat = "sparse light field";
+
 /// How a .grl file is written.
 struct SparseFileOptions {
   /// Largest difference of a decoded value from the original, in steps of the bit depth; 0:

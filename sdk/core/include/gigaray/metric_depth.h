@@ -22,4 +22,8 @@ FloatMap depth_from_disparity(const FloatMap& disparity, const RigGeometry& rig)
 bool has_metric_depth(const LightField& light_field);
 FloatMap depth_from_disparity(const FloatMap& disparity, const LightField& light_field);
 
+/// The disparity (unstructured: inverse depth) of what is at a distance > 0, which may be infinite.
+/// Depth must be known.
+double disparity_of_depth(double depth, const LightField& light_field);
+
 }  // namespace gigaray
