@@ -28,7 +28,8 @@ bool is_part_of_model(const fs::path& folder) {
 
 std::vector<fs::path> colmap_models_of(const fs::path& input) {
   if (is_colmap_model(input)) return {input};
-  for (const fs::path& folder : {input / "sparse", input / "dense" / "sparse"}) {
+  for (const fs::path& folder : {input / "sparse", input / "dense" / "sparse",
+                                 input / "colmap" / "sparse", input / "distorted" / "sparse"}) {
     if (is_colmap_model(folder)) return {folder};
     std::vector<fs::path> models = colmap_models_below(folder);
     if (!models.empty()) return models;

@@ -22,11 +22,6 @@ namespace fs = std::filesystem;
   throw Error(ErrorCode::kBadInput, where + ": " + what);
 }
 
-[[noreturn]] void bad_pose(const ColmapModel& model, const std::string& where) {
-  bad(where,
-      "image " + in_quotes(model.unposed.front()) + " has a pose with a number that is not finite");
-}
-
 bool is_file(const fs::path& path) {
   std::error_code ignored;
   return fs::is_regular_file(path, ignored);
@@ -40,7 +35,12 @@ bool has_parts(const fs::path& folder, const std::string& extension) {
 
 void accept(std::uint32_t camera_id, Lens lens, const std::string& where, ColmapModel& model) {
   const std::string camera = where + ": camera " + std::to_string(camera_id);
-  check(lens, camera);
+  try {
+    check(lens, camera);
+  } catch (const Error& problem) {
+    model.faulty_cameras.emplace(camera_id, problem.what());
+    return;
+  }
   if (!model.cameras.emplace(camera_id, std::move(lens)).second) bad(camera, "is there twice");
 }
 
@@ -55,7 +55,9 @@ void accept(ColmapModel::Image image, const std::string& where, ColmapModel& mod
   const double length = image.rotation.norm();
   constexpr double kTolerance = 0.01;
   if (!image.translation.allFinite() || !std::isfinite(length)) {
-    model.unposed.push_back(std::move(image.name));
+    const std::string what =
+        "image " + in_quotes(image.name) + " has a pose with a number that is not finite";
+    model.left_out.push_back({std::move(image.name), where + ": " + what});
     return;
   }
   if (std::abs(length - 1) > kTolerance)
@@ -71,13 +73,31 @@ void accept(ColmapModel::Image image, const std::string& where, ColmapModel& mod
 }
 
 void accept(ColmapModel::Point point, const std::string& where, ColmapModel& model) {
-  if (!point.position.allFinite() || !std::isfinite(point.error))
-    bad(where, "point " + std::to_string(point.id) + " has a number that is not finite");
+  if (!point.position.allFinite() || !std::isfinite(point.error)) {
+    model.faulty_points.push_back(point.id);
+    return;
+  }
   model.points.push_back(std::move(point));
 }
 
-void check(const ColmapModel& model, const std::string& where) {
-  if (model.images.empty() && !model.unposed.empty()) bad_pose(model, where);
+void settle(ColmapModel& model, const std::string& where, bool strict) {
+  std::erase_if(model.images, [&](const ColmapModel::Image& image) {
+    if (model.cameras.count(image.camera_id)) return false;
+    const auto faulty = model.faulty_cameras.find(image.camera_id);
+    model.left_out.push_back(
+        {image.name, faulty != model.faulty_cameras.end()
+                         ? faulty->second
+                         : where + ": image " + in_quotes(image.name) + " has camera " +
+                               std::to_string(image.camera_id) + ", which is not in the model"});
+    return true;
+  });
+  if (!model.left_out.empty() && (strict || model.images.empty()))
+    throw Error(ErrorCode::kBadInput, model.left_out.front().fault);
+  if (strict && !model.faulty_cameras.empty())
+    throw Error(ErrorCode::kBadInput, model.faulty_cameras.begin()->second);
+  if (strict && !model.faulty_points.empty())
+    bad(where, "point " + std::to_string(model.faulty_points.front()) +
+                   " has a number that is not finite");
   if (model.images.empty())
     bad(where, "no image is registered: COLMAP found no cameras; take pictures that overlap more");
   std::set<std::uint32_t> ids;
@@ -87,9 +107,6 @@ void check(const ColmapModel& model, const std::string& where) {
       bad(where, "two images have the number " + std::to_string(image.id));
     if (!names.insert(image.name).second)
       bad(where, "two images are named " + in_quotes(image.name));
-    if (!model.cameras.count(image.camera_id))
-      bad(where, "image " + in_quotes(image.name) + " has camera " +
-                     std::to_string(image.camera_id) + ", which is not in the model");
   }
   std::set<std::uint64_t> points;
   for (const ColmapModel::Point& point : model.points)
@@ -124,8 +141,7 @@ ColmapModel read_colmap_model(const fs::path& folder, bool strict) {
   parse("images", parser.images);
   // Poses that were found by other means often come without.
   if (is_file(folder / ("points3D" + extension))) parse("points3D", parser.points);
-  if (strict && !model.unposed.empty()) bad_pose(model, (folder / ("images" + extension)).string());
-  check(model, folder.string());
+  settle(model, folder.string(), strict);
   return model;
 }
 

@@ -68,8 +68,8 @@ void parse_cameras(std::string_view bytes, const std::string& where, ColmapModel
     const auto id = file.get<std::uint32_t>();
     const auto model_id = file.get<std::int32_t>();
     if (model_id == kEquirectangular) {
-      accept(id, {"EQUIRECTANGULAR", 0, 0, {}}, where, model);  // which names it
-      continue;
+      check(Lens{"EQUIRECTANGULAR", 0, 0, {}},  // which refuses it by name
+            where + ": camera " + std::to_string(id));
     }
     if (model_id < 0 || std::size_t(model_id) >= lens_models().size())
       throw Error(ErrorCode::kBadInput,

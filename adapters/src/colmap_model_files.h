@@ -26,14 +26,14 @@ struct ColmapPrinter {
 };
 extern const ColmapPrinter kBinaryColmapPrinter, kTextColmapPrinter;
 
-/// Takes an image or a point whose numbers were read: normalises the quaternion, throws
-/// Error(kBadInput) for what can't be.
+/// Takes an image, a point or a camera whose numbers were read: normalises the quaternion, puts
+/// what is not finite or impossible to what is left out, throws Error(kBadInput) for what can't be.
 void accept(ColmapModel::Image image, const std::string& where, ColmapModel& model);
 void accept(ColmapModel::Point point, const std::string& where, ColmapModel& model);
 void accept(std::uint32_t camera_id, Lens lens, const std::string& where, ColmapModel& model);
 
-/// Throws Error(kBadInput) beginning with `where` when the parts contradict each other or no image
-/// is registered.
-void check(const ColmapModel& model, const std::string& where);
+/// Leaves images without a camera out. Throws Error(kBadInput) beginning with `where` when the
+/// parts contradict each other or no image is left; when `strict`, for anything left out.
+void settle(ColmapModel& model, const std::string& where, bool strict);
 
 }  // namespace gigaray

@@ -144,7 +144,7 @@ bool read_poses(ColmapModel& model, const PoseConvention& convention) {
 LightField open_model(FoundColmapModel found, const OpenOptions& options,
                       std::vector<std::string> notes) {
   std::vector<ColmapModel::Image>& images = found.model.images;
-  if (images.size() + found.model.unposed.size() < kLeastPictures)
+  if (images.size() + found.model.left_out.size() < kLeastPictures)
     throw Error(ErrorCode::kBadInput,
                 found.folder.string() +
                     ": only one image is registered, depth needs two or more; take pictures that "
@@ -174,14 +174,16 @@ LightField open_model(FoundColmapModel found, const OpenOptions& options,
     pictures.push_back(std::move(picture));
   }
   if (!options.masks.empty()) attach_masks(pictures, names, options.masks, notes);
-  for (const std::string& name : found.model.unposed) {
+  for (const ColmapModel::Faulty& faulty : found.model.left_out) {
     PosedPicture picture;
-    picture.file = folder / name;
-    picture.name = name;
-    picture.fault = found.folder.string() + ": the pose of " + in_quotes(name) +
-                    " holds a number that is not finite";
+    picture.file = folder / faulty.name;
+    picture.name = faulty.name;
+    picture.fault = faulty.fault;
     pictures.push_back(std::move(picture));
   }
+  if (!found.model.faulty_points.empty())
+    notes.push_back(std::to_string(found.model.faulty_points.size()) +
+                    " points of the model are not finite and left out");
   for (const char* part : {"rigs.bin", "rigs.txt", "frames.bin", "frames.txt"})
     if (is_there(found.folder / part)) {
       notes.push_back("rigs and frames of the model are ignored; its images state every pose");

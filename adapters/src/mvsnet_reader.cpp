@@ -70,7 +70,7 @@ class MvsnetReader : public Reader {
     const std::vector<fs::path> files = camera_files_of(input);
     std::vector<StatedView> views;
     for (const fs::path& file : files) {
-      views.push_back(parse_mvsnet_camera(read_text(file), file.string()));
+      views.push_back(view_of_file(parse_mvsnet_camera, file));
       views.back().picture = stem_of(file);
     }
     const fs::path folder = files.front().parent_path();

@@ -46,6 +46,18 @@ void complete_lens(StatedView& view, const fs::path& picture, double limit) {
 
 }  // namespace
 
+StatedView view_of_file(StatedView (*parse)(std::string_view text, const std::string& where),
+                        const fs::path& file) {
+  try {
+    return parse(read_text(file), file.string());
+  } catch (const Error& problem) {
+    if (problem.code() != ErrorCode::kBadInput) throw;
+    StatedView view;
+    view.fault = problem.what();
+    return view;
+  }
+}
+
 void set_pose(StatedView& view, const StatedPose& matrix, const PoseConvention& convention,
               const std::string& where) {
   view.matrix = matrix;
@@ -55,13 +67,21 @@ void set_pose(StatedView& view, const StatedPose& matrix, const PoseConvention& 
     return;
   }
   const auto pose = read_pose(matrix, convention);
-  if (!pose)
-    throw Error(ErrorCode::kBadInput,
-                where + ": its rotation is none (its axes are not orthogonal or of one length)");
-  view.pose = *pose;
+  if (pose)
+    view.pose = *pose;
+  else
+    view.fault = where + ": its rotation is none (its axes are not orthogonal or of one length)";
 }
 
 namespace {
+
+/// A camera that can't be used is left out, unless none can or nothing may be.
+void refuse_faulty(const std::vector<StatedView>& views, bool strict) {
+  const auto is_faulty = [](const StatedView& view) { return !view.fault.empty(); };
+  const auto first = std::ranges::find_if(views, is_faulty);
+  if (first != views.end() && (strict || std::ranges::all_of(views, is_faulty)))
+    throw Error(ErrorCode::kBadInput, first->fault);
+}
 
 /// Left-handed frames are that in all views or in none. Are they?
 bool find_mirrored(std::vector<StatedView>& views, const std::string& where,
@@ -94,9 +114,11 @@ LightField open_stated_views(std::vector<StatedView> views, const fs::path& file
       options.images.empty() ? folders : std::vector{options.images};
   std::sort(views.begin(), views.end(),
             [](const StatedView& a, const StatedView& b) { return a.picture < b.picture; });
+  refuse_faulty(views, options.strict);
   if (options.convention)
     for (StatedView& view : views)
-      set_pose(view, view.matrix, *options.convention, file.string() + ", " + view.picture);
+      if (view.fault.empty())
+        set_pose(view, view.matrix, *options.convention, file.string() + ", " + view.picture);
   std::vector<std::string> notes;
   const bool is_mirrored = find_mirrored(views, file.string(), notes);
   std::vector<std::string> stated;
@@ -135,7 +157,9 @@ LightField open_stated_views(std::vector<StatedView> views, const fs::path& file
   if (!options.masks.empty()) attach_masks(pictures, names, options.masks, notes);
   LightField light_field =
       posed_light_field(std::move(pictures), format, options.memory_bytes, options.strict);
-  light_field.pose_reading = PoseReading{name_of(views.front().convention), is_mirrored};
+  const auto usable =
+      std::ranges::find_if(views, [](const StatedView& view) { return view.fault.empty(); });
+  light_field.pose_reading = PoseReading{name_of(usable->convention), is_mirrored};
   light_field.notes.insert(light_field.notes.begin(), notes.begin(), notes.end());
   std::error_code ignored;
   const fs::path beside = fs::is_directory(file, ignored) ? file : file.parent_path();

@@ -43,8 +43,13 @@ std::vector<StatedView> parse_middlebury_par(std::string_view text, const std::s
 StatedView parse_strecha_camera(std::string_view text, const std::string& where);
 StatedView parse_mvsnet_camera(std::string_view text, const std::string& where);
 
+/// What `parse` makes of a file with the camera of one view; what it throws for bad input is a
+/// fault of the view.
+StatedView view_of_file(StatedView (*parse)(std::string_view text, const std::string& where),
+                        const std::filesystem::path& file);
+
 /// Sets the pose of a view from the matrix that a file states, see read_pose. Numbers that are not
-/// finite are a fault of the view; throws Error(kBadInput) when the axes are no rotation.
+/// finite and axes that are no rotation are a fault of the view.
 void set_pose(StatedView& view, const StatedPose& matrix, const PoseConvention& convention,
               const std::string& where);
 

@@ -42,7 +42,7 @@ class StrechaReader : public Reader {
     refuse_direction(options, "the .camera files state");
     std::vector<StatedView> views;
     for (const fs::path& file : camera_files_of(input)) {
-      views.push_back(parse_strecha_camera(read_text(file), file.string()));
+      views.push_back(view_of_file(parse_strecha_camera, file));
       views.back().picture = file.stem().string();
     }
     const fs::path above = fs::absolute(input / "x").lexically_normal().parent_path().parent_path();

@@ -299,8 +299,19 @@ std::vector<StatedView> parse_transforms_json(std::string_view text, const std::
   std::vector<StatedView> views;
   for (const json& frame : *frames) {
     const std::string place = where + ", frame " + std::to_string(views.size());
-    if (!frame.is_object()) throw Error(ErrorCode::kBadInput, place + ": is no object");
-    views.push_back(view_of(Entries(root, frame, place)));
+    StatedView view;
+    try {
+      if (!frame.is_object()) throw Error(ErrorCode::kBadInput, place + ": is no object");
+      view = view_of(Entries(root, frame, place));
+    } catch (const Error& problem) {
+      // One frame does not refuse the capture; it has to be told from the others.
+      const auto path = frame.is_object() ? frame.find("file_path") : frame.end();
+      const bool is_named = frame.is_object() && path != frame.end() && path->is_string();
+      view = StatedView();
+      view.picture = is_named ? path->get<std::string>() : place;
+      view.fault = problem.what();
+    }
+    views.push_back(std::move(view));
   }
   return views;
 }

@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The Gigaray authors
 // Captures of which a part is missing, damaged, without a pose, or at the place of another one.
 #include <limits>
+#include <functional>
 #include <nlohmann/json.hpp>
 
 #include "adapters/adapters_test.h"
@@ -105,6 +106,53 @@ TEST_F(IncompleteCapture, APoseThatIsNotFiniteIsLeftOut) {
     model.images[3].translation.y() = before;
     expect_left_out(3, "not finite");
   }
+}
+
+TEST_F(IncompleteCapture, AnImageWithoutAPossibleCameraIsLeftOut) {
+  save_pictures("images/");
+  model.images[1].camera_id = 99;
+  write_colmap_model(folder / "sparse/0", model, ColmapFormat::kText);
+  expect_left_out(1, "camera 99, which is not in the model");
+  save_model();
+  write("sparse/0/cameras.txt",
+        read("sparse/0/cameras.txt") + "99 SPHERICAL 46 34 1 2\n8 PINHOLE 46 34 -60 62 23 17\n");
+  expect_left_out(1, "panorama");
+  model.images[1].camera_id = 8;
+  const std::string cameras = read("sparse/0/cameras.txt");
+  save_model();
+  write("sparse/0/cameras.txt", cameras);
+  expect_left_out(1, "focal length");
+  write("sparse/0/cameras.txt", "# none\n");
+  expect_bad_input("not in the model");
+}
+
+TEST_F(IncompleteCapture, APointThatIsNotFiniteIsLeftOut) {
+  save_pictures("images/");
+  model.points[4].position.x() = std::numeric_limits<double>::infinity();
+  save_model();
+  const LightField light_field = open_light_field(folder);
+  EXPECT_EQ(light_field.num_views(), 5);
+  EXPECT_NE(light_field.notes.front().find("1 points of the model"), std::string::npos);
+}
+
+TEST_F(IncompleteCapture, AFrameThatCannotBeReadIsLeftOut) {
+  save_pictures("images/");
+  using Change = std::function<void(json&)>;
+  for (const Change& change :
+       {Change([](json& frame) { frame["camera_model"] = "PANORAMA"; }),
+        Change([](json& frame) { frame["transform_matrix"] = "x"; }),
+        Change([](json& frame) { frame.erase("transform_matrix"); }),
+        Change([](json& frame) { frame["transform_matrix"][0][0] = 3; }),
+        Change([](json& frame) { frame["fl_x"] = -1; })}) {
+    json root = transforms();
+    change(root["frames"][1]);
+    write("transforms.json", root.dump());
+    expect_left_out(1, "frame 1");
+  }
+  json root = transforms();
+  for (json& frame : root["frames"]) frame.erase("transform_matrix");
+  write("transforms.json", root.dump());
+  expect_bad_input("frame 0: has no transform_matrix");
 }
 
 TEST_F(IncompleteCapture, FramesWithoutAPictureOrAFinitePoseAreLeftOut) {

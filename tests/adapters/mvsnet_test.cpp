@@ -53,8 +53,10 @@ class Mvsnet : public AdaptersTest {
   }
   void expect_bad(const std::string& text, const std::string& word) const {
     write("cams/" + name(1) + "_cam.txt", text);
-    expect_bad_input(name(1) + "_cam.txt");
-    expect_bad_input(word);
+    OpenOptions strict;
+    strict.strict = true;  // else it is left out
+    expect_bad_input(name(1) + "_cam.txt", strict);
+    expect_bad_input(word, strict);
   }
 
   ColmapModel model = colmap_scene();

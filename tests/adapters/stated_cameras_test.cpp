@@ -140,9 +140,11 @@ class StatedCameras : public AdaptersTest {
   void expect_bad(const std::string& input, const std::string& word,
                   const std::string& other = "") const {
     SCOPED_TRACE(word);
-    expect_error(ErrorCode::kBadInput, word, [&] { open_light_field(folder / input); });
+    OpenOptions options;
+    options.strict = true;  // else one camera of several is left out
+    expect_error(ErrorCode::kBadInput, word, [&] { open_light_field(folder / input, options); });
     if (!other.empty())
-      expect_error(ErrorCode::kBadInput, other, [&] { open_light_field(folder / input); });
+      expect_error(ErrorCode::kBadInput, other, [&] { open_light_field(folder / input, options); });
   }
 
   ColmapModel model = colmap_scene();

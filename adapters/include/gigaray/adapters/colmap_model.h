@@ -49,9 +49,16 @@ struct ColmapModel {
 
   std::map<std::uint32_t, Lens> cameras;  ///< by id
   std::vector<Image> images;              ///< registered ones
-  /// Names of images left out, since their poses hold a number that is not finite.
-  std::vector<std::string> unposed = {};
   std::vector<Point> points;
+
+  /// An image that can't be used.
+  struct Faulty {
+    std::string name;
+    std::string fault;  ///< one line that names the model
+  };
+  std::vector<Faulty> left_out = {};
+  std::map<std::uint32_t, std::string> faulty_cameras = {};  ///< why, by id
+  std::vector<std::uint64_t> faulty_points = {};             ///< not finite; left out
 };
 
 enum class ColmapFormat { kText, kBinary };
@@ -64,8 +71,8 @@ bool is_colmap_model(const std::filesystem::path& folder);
 /// Throws Error(kBadInput) naming the file: cut short, more entries stated than it can hold,
 /// numbers that are not finite, a quaternion more than 1 % from unit length (others are
 /// normalised), cameras that fail check(Lens), identifiers or names that repeat, an image of an
-/// unknown camera, no registered image. Not strict: images whose pose is not finite are left out
-/// while others are there.
+/// unknown camera, no registered image. Not strict: images whose pose is not finite, whose camera
+/// is unknown or impossible, and points that are not finite are left out while others are there.
 ColmapModel read_colmap_model(const std::filesystem::path& folder, bool strict = true);
 
 /// Writes the three files, each whole or not at all; creates the folder. Refuses, with
