@@ -102,8 +102,7 @@ void InputOptions::add_to(CLI::App& app) {
                  "Folder of the photographs, when they don't lie with the model of their cameras")
       ->type_name("DIR");
   app.add_option("--masks", open.masks,
-                 "Photographs with cameras: folder of masks, black is left out; NAME.png for the "
-                 "picture NAME")
+                 "Folder of masks, black is left out; NAME.png for the picture NAME")
       ->type_name("DIR");
   app.add_option_function<std::string>(
          "--convention", [this](const std::string& text) { parse_convention(text, open); },
@@ -111,9 +110,10 @@ void InputOptions::add_to(CLI::App& app) {
          "unity, llff, ros, unreal or the ways of x, y and z as in RDF (right, down, forward); "
          "with -w2c behind it they take the scene to the camera (default: as the format has it)")
       ->type_name("NAME");
-  app.add_flag("--strict", open.strict,
-               "Photographs with cameras: one that is missing, damaged or without a finite pose is "
-               "an error, not left out");
+  app.add_flag(
+      "--strict", open.strict,
+      "A picture that is missing, damaged, without a finite pose or (in rows and grids) of "
+      "another size is an error, not left out");
   app.add_option("--without", without,
                  "Leave these views out, as if they had not been taken: names, indices, ranges")
       ->type_name("LIST");

@@ -224,7 +224,8 @@ Image<std::uint16_t> epi_picture(const Finding& finding, const LightField& light
     // Where t wobbles from view to view, the row that the ray meets.
     const int v =
         found ? std::clamp(int(std::lround(there->v)), 0, light_field.height - 1) : finding.v;
-    const Image<std::uint16_t> picture = light_field.pixels->read(row[i]);
+    Image<std::uint16_t> picture = light_field.pixels->read(row[i]);
+    take_mask(picture);
     std::transform(picture.row(v) + 3 * begin, picture.row(v) + 3 * end, epi.pixels.row(int(i)),
                    [&](std::uint16_t value) { return std::uint16_t(value >> shift); });
   }

@@ -92,7 +92,7 @@ class CalibratedPairReader : public Reader {
     light_field.kind = LightFieldKind::k3D;
     light_field.views = {{pair.left.stem().string(), -0.5, 0},
                          {pair.right.stem().string(), 0.5, 0}};
-    attach_pictures(light_field, {pair.left, pair.right}, options.memory_bytes);
+    attach_pictures(light_field, {pair.left, pair.right}, options);
     auto& notes = light_field.notes;
     scale(calibration, light_field, pair.calibration.filename().string(), notes);
 

@@ -17,9 +17,10 @@
 #include "gigaray/adapters/atomic_output.h"
 #include "gigaray/adapters/child_process.h"
 #include "gigaray/adapters/input_file.h"
+#include "gigaray/adapters/pictures.h"
 #include "mask_folder.h"
+#include "picture_faults.h"
 #include "picture_files.h"
-#include "posed_pictures.h"
 #include "text.h"
 
 namespace gigaray {
@@ -155,19 +156,17 @@ class FeatureCounts {
 /// Those that can be read. The others are named; with `strict` the first is an error.
 Words names_of_photographs(const fs::path& folder, bool strict, const RunControl& control) {
   Words names;
-  std::vector<PosedPicture> faulty;
+  std::vector<PictureFault> faulty;
   for (const fs::path& path : pictures_of(folder)) {
-    PosedPicture picture;
-    picture.file = path;
-    picture.name = path.filename().string();
-    picture.fault = fault_of_picture(path, opening_limit());
-    if (picture.fault.empty())
-      names.push_back(picture.name);
+    const std::string name = path.filename().string();
+    const std::string why = fault_of_picture(path, Orientation::kIgnored, opening_limit());
+    if (why.empty())
+      names.push_back(name);
     else
-      faulty.push_back(std::move(picture));
+      faulty.push_back({name, path, why});
   }
   if (!faulty.empty() && (strict || names.size() < 2))
-    throw Error(ErrorCode::kBadInput, faulty.front().fault);
+    throw Error(ErrorCode::kBadInput, faulty.front().why);
   if (names.size() < 2) {
     const std::string why = why_no_pictures(folder);
     throw Error(ErrorCode::kBadInput, folder.string() + ": holds " +
@@ -231,17 +230,32 @@ Words size_arguments(Program& program, int max_size) {
           std::to_string(std::max(max_size, kLeast))};
 }
 
-/// A folder with the names that COLMAP looks for, when there are masks.
-Words mask_arguments(const fs::path& masks, const Words& names, const fs::path& work) {
+/// A folder with masks of the names and sizes that COLMAP looks for, when there are masks.
+Words mask_arguments(const fs::path& masks, const Words& names,
+                     const std::vector<PictureSpec>& specs, const fs::path& work, double limit) {
   if (masks.empty()) return {};
   const fs::path folder = work / "masks";
   fs::create_directory(folder);
+  const MaskFolder known(masks);
   bool any = false;
-  for (const std::string& name : names)
-    if (const fs::path mask = mask_of(masks, name); !mask.empty()) {
-      fs::create_symlink(fs::absolute(mask), folder / (name + ".png"));
-      any = true;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const fs::path mask = known.find(names[i]);
+    if (mask.empty()) continue;
+    any = true;
+    const int width = specs[i].width, height = specs[i].height;
+    const fs::path target = folder / (names[i] + ".png");
+    const bool is_scaled =
+        is_mask_scaled(mask, folder / names[i], width, height, Orientation::kIgnored, limit);
+    if (!is_scaled && lower(mask.extension().string()) == ".png") {
+      fs::create_symlink(fs::absolute(mask), target);
+      continue;
     }
+    const Mask seen = read_mask(mask, width, height, Orientation::kIgnored, limit);
+    Image<std::uint16_t> black_and_white(width, height);
+    std::ranges::transform(seen, black_and_white.begin(),
+                           [](std::uint8_t value) { return std::uint16_t(value ? 255 : 0); });
+    write_png(target, black_and_white, 8);
+  }
   if (!any)
     throw Error(ErrorCode::kBadInput, masks.string() +
                                           ": holds no mask of any photograph; that of " +
@@ -284,7 +298,7 @@ void find_features(Program& program, const fs::path& folder, const ColmapPicture
                    const RunControl& control) {
   const std::vector<PictureSpec>& specs = pictures.specs();
   const Words cameras = camera_arguments(folder, names, specs, options.lens);
-  const Words masks = mask_arguments(options.masks, names, work);
+  const Words masks = mask_arguments(options.masks, names, specs, work, opening_limit());
   std::string list;
   for (const std::string& name : names) list += name + "\n";
   write_file_atomically(work / "photographs.txt", list);

@@ -112,7 +112,7 @@ struct Mark {
 template <std::size_t N>
 bool has_any(std::string_view head, const Mark (&marks)[N]) {
   return std::any_of(std::begin(marks), std::end(marks), [&](const Mark& mark) {
-    return head.size() > mark.at && head.substr(mark.at).starts_with(mark.bytes);
+    return head.size() >= mark.at && head.substr(mark.at).starts_with(mark.bytes);
   });
 }
 
@@ -213,6 +213,16 @@ FileKind likely_kind(const fs::path& path) {
 bool is_exr(const fs::path& path) {
   try {
     return InputFile(path).read(0, 4) == "\x76\x2f\x31\x01";
+  } catch (const Error&) {
+    return false;
+  }
+}
+
+bool is_lossy(const fs::path& path) {
+  try {
+    const std::string head = InputFile(path).read(0, 12);
+    static constexpr Mark kLossy[] = {{0, "\xff\xd8"sv}, {8, "WEBP"sv}, {4, "ftyp"sv}};
+    return has_any(head, kLossy);
   } catch (const Error&) {
     return false;
   }

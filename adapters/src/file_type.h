@@ -34,6 +34,9 @@ FileKind likely_kind(const std::filesystem::path& path);
 /// Is it OpenEXR, by its first bytes?
 bool is_exr(const std::filesystem::path& path);
 
+/// Is it a picture of a type that loses detail as a rule: JPEG, WebP, HEIF, AVIF?
+bool is_lossy(const std::filesystem::path& path);
+
 /// "is a video; …" with what makes pictures of it. Empty when that is not the trouble.
 std::string why_unread(const std::filesystem::path& path);
 

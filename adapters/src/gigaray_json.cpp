@@ -68,7 +68,7 @@ class GigarayJsonReader : public Reader {
     for (const std::string& name : names) files.push_back(path.parent_path() / name);
     const int width = light_field.width, height = light_field.height;
     try {
-      if (!files.empty()) attach_pictures(light_field, std::move(files), options.memory_bytes);
+      if (!files.empty()) attach_pictures(light_field, std::move(files), options);
     } catch (const Error& problem) {
       throw Error(problem.code(), path.string() + ": " + problem.what());
     }

@@ -9,14 +9,26 @@
 #include "text.h"
 
 namespace gigaray {
+namespace {
+
+std::string_view unquoted(std::string_view word) {
+  word = trimmed(word);
+  const bool is_quoted = word.size() >= 2 && (word.front() == '"' || word.front() == '\'') &&
+                         word.front() == word.back();
+  return is_quoted ? trimmed(word.substr(1, word.size() - 2)) : word;
+}
+
+}  // namespace
 
 HciParameters::HciParameters(std::string_view text, std::string where) : where_(std::move(where)) {
   std::istringstream stream{std::string(text)};
   for (std::string line; std::getline(stream, line);) {
-    const auto equals = line.find('=');
+    // What stands behind ; or # is a comment.
+    const std::string_view words = std::string_view(line).substr(0, line.find_first_of(";#"));
+    const auto equals = words.find_first_of("=:");
     if (equals == std::string::npos) continue;
-    const std::string_view words = line;
-    values_[std::string(trimmed(words.substr(0, equals)))] = trimmed(words.substr(equals + 1));
+    values_[lower(std::string(unquoted(words.substr(0, equals))))] =
+        unquoted(words.substr(equals + 1));
   }
 }
 

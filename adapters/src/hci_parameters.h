@@ -9,7 +9,8 @@
 
 namespace gigaray {
 
-/// parameters.cfg of an HCI scene: "key = value" lines; sections and anything else are passed over.
+/// parameters.cfg of an HCI scene: lines "key = value" or "key: value", keys in any letter case,
+/// perhaps in quotes, with comments behind ; or #; sections and anything else are passed over.
 /// Errors (kBadInput) begin with `where`, the file's name.
 class HciParameters {
  public:

@@ -132,7 +132,7 @@ class HciReader : public Reader {
       light_field.notes.push_back(std::to_string(files.size()) + " of " +
                                   std::to_string(columns * rows) + " views of the grid are there");
     light_field.kind = kind_from_positions(light_field.views);
-    attach_pictures(light_field, std::move(files), options.memory_bytes);
+    attach_pictures(light_field, std::move(files), options);
     if (parameters) apply(*parameters, light_field);
     return light_field;
   }

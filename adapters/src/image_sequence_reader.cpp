@@ -12,10 +12,12 @@
 #include "gigaray/adapters/input_file.h"
 #include "gigaray/adapters/photographs.h"
 #include "numbered_names.h"
+#include "picture_faults.h"
 #include "picture_files.h"
 #include "positions_file.h"
 #include "readers.h"
 #include "text.h"
+#include "times_in_names.h"
 #include "view_grid.h"
 
 namespace gigaray {
@@ -42,14 +44,27 @@ Series series_of(const fs::path& input, const std::vector<fs::path>& pictures) {
   if (!group.rival.empty())
     bad(input, "holds more than one series of pictures, " + group.first_name() + " … and " +
                    group.rival + " …; keep one per folder");
-  if (group.changing.size() > 1)
+  const std::set<std::size_t> times = time_columns(group);
+  const bool is_ordered = group.changing.size() > 1 || std::ranges::includes(times, group.changing);
+  const std::optional<NamesInOrder> order =
+      is_ordered && !group.changing.empty() ? names_in_order(group) : std::nullopt;
+  if (group.changing.size() > 1 && !order)
     bad(input, "more than one number changes in the names (" + group.first_name() + " … " +
                    group.pictures.back().path.filename().string() +
                    ") and they form no grid; state the places of the views with --positions");
   const std::size_t which = group.changing.empty() ? 0 : *group.changing.begin();
 
   Series series;
+  for (std::size_t i = 0; order && i < group.pictures.size(); ++i) {
+    series.files.push_back(group.pictures[i].path);
+    series.numbers.push_back(order->numbers[i]);
+  }
+  if (order && order->are_times)
+    series.notes.push_back(
+        "the names hold times: the pictures are taken in their order, at equal steps (--positions "
+        "states others)");
   for (const NumberedPicture& picture : group.pictures) {
+    if (order) break;
     if (!series.numbers.empty() && series.numbers.back() == picture.numbers[which])
       bad(input, series.files.back().filename().string() + " and " +
                      picture.path.filename().string() + " have the same number");
@@ -144,7 +159,7 @@ class ImageSequenceReader : public Reader {
           "the camera is assumed to move to the right as the "
           "numbers rise (--direction states it)");
     }
-    attach_pictures(light_field, std::move(series.files), options.memory_bytes);
+    attach_pictures(light_field, std::move(series.files), options);
     return light_field;
   }
 
@@ -177,7 +192,7 @@ class ImageSequenceReader : public Reader {
     }
     light_field.kind = kind_from_positions(light_field.views);
     assume_directions(light_field, directions);
-    attach_pictures(light_field, std::move(series.files), options.memory_bytes);
+    attach_pictures(light_field, std::move(series.files), options);
     leave_out_dark_views(light_field);
     return light_field;
   }
@@ -201,7 +216,7 @@ class ImageSequenceReader : public Reader {
       throw Error(problem.code(), options.positions.string() + ": " + problem.what());
     }
     light_field.kind = kind_from_positions(light_field.views);
-    attach_pictures(light_field, std::move(files), options.memory_bytes);
+    attach_pictures(light_field, std::move(files), options);
     return light_field;
   }
 };
@@ -213,7 +228,8 @@ std::string why_no_series(const fs::path& folder, double memory_bytes) {
   const double limit = opening_limit(memory_bytes);
   std::optional<PictureSpec> first;
   for (const fs::path& picture : pictures) {
-    const PictureSpec spec = read_picture_spec(picture, Orientation::kApplied, limit);
+    PictureSpec spec;
+    if (!fault_of_picture(picture, Orientation::kApplied, limit, &spec).empty()) continue;
     if (!first) first = spec;
     if (spec.width != first->width && spec.width == first->height && spec.height == first->width)
       return folder.string() + ": some pictures are upright, some on their side";

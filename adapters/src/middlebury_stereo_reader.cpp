@@ -61,7 +61,7 @@ class MiddleburyStereoReader : public Reader {
     LightField light_field;
     light_field.kind = LightFieldKind::k3D;
     light_field.views = {{left.stem().string(), -0.5, 0}, {right.stem().string(), 0.5, 0}};
-    attach_pictures(light_field, {left, right}, options.memory_bytes);
+    attach_pictures(light_field, {left, right}, options);
     light_field.declared_range = DisparityRange{0, std::round(kMostDisparity * light_field.width)};
     light_field.notes.push_back("disparities up to " +
                                 std::to_string(int(light_field.declared_range->max)) +

@@ -13,6 +13,7 @@
 #include "numbered_names.h"
 #include "picture_files.h"
 #include "readers.h"
+#include "times_in_names.h"
 #include "view_grid.h"
 
 namespace gigaray {
@@ -57,6 +58,9 @@ std::optional<Places> places_of(const NameGroup& group) {
       return named;
   }
   if (group.changing.size() != 2) return std::nullopt;
+  const std::set<std::size_t> times = time_columns(group);
+  if (std::ranges::any_of(group.changing, [&](std::size_t i) { return times.contains(i); }))
+    return std::nullopt;
   const Places places{*group.changing.begin(), *group.changing.rbegin(), false};
   const std::size_t views = group.pictures.size();
   if (count_distinct(group, places.row) == views || count_distinct(group, places.column) == views)
@@ -139,7 +143,7 @@ class NamedGridReader : public Reader {
           "columns are assumed to go right and rows down (--direction states it)");
     }
     light_field.kind = kind_from_positions(light_field.views);
-    attach_pictures(light_field, std::move(files), options.memory_bytes);
+    attach_pictures(light_field, std::move(files), options);
     leave_out_dark_views(light_field);
     return light_field;
   }

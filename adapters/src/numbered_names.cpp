@@ -28,7 +28,7 @@ std::string label_of(std::string piece) {
 }
 
 NumberedPicture numbered(const fs::path& path) {
-  NumberedPicture result{path, "", {}, {}};
+  NumberedPicture result{path, "", {}, {}, {}};
   const std::string name = path.stem().string();
   std::string piece;  // since the last number
   for (std::size_t i = 0; i < name.size();) {
@@ -39,8 +39,15 @@ NumberedPicture numbered(const fs::path& path) {
     }
     std::uint64_t value = 0;
     constexpr std::uint64_t kLimit = std::numeric_limits<std::uint64_t>::max() / 10 - 1;
-    for (; i < name.size() && is_digit(name[i]); ++i)
+    std::size_t digits = 0;
+    for (; i < name.size() && is_digit(name[i]); ++i, ++digits)
       value = value > kLimit ? value : value * 10 + std::uint64_t(name[i] - '0');
+    result.digits.push_back(digits);
+    // Seconds since 1970 with a fraction, whose digits count from the left: .5 is more than .123.
+    constexpr std::uint64_t kSeconds = 1'000'000'000;
+    constexpr std::size_t kNanoseconds = 9;
+    if (piece == "." && !result.numbers.empty() && result.numbers.back() >= kSeconds)
+      for (; digits < kNanoseconds; ++digits) value *= 10;
     result.pattern += '#';
     result.numbers.push_back(value);
     result.labels.push_back(label_of(std::exchange(piece, "")));

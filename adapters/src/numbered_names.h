@@ -14,7 +14,8 @@ namespace gigaray {
 struct NumberedPicture {
   std::filesystem::path path;
   std::string pattern;                 ///< The name with '#' for every number, then the extension.
-  std::vector<std::uint64_t> numbers;  ///< Saturated.
+  std::vector<std::uint64_t> numbers;  ///< Saturated; fractions of seconds since 1970 in ns.
+  std::vector<std::size_t> digits;     ///< Of each number, with leading zeros.
   /// In front of each number: the letters that end there, lower case, without what separates them
   /// from it. "view_r03_c5" has "r", "c".
   std::vector<std::string> labels;

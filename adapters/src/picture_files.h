@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "gigaray/adapters/pictures.h"
+#include "gigaray/adapters/reader.h"
 #include "gigaray/image.h"
 #include "gigaray/light_field.h"
 
@@ -81,10 +82,13 @@ int common_bit_depth(const std::vector<PictureSpec>& specs, std::vector<std::str
 std::string size_text(int width, int height);
 
 /// Sets width, height and pixels of `light_field` from its pictures, one per view in their order,
-/// and notes what is dropped. Reads headers, and of pictures deeper than 8 bit a few for their full
-/// scale. Throws Error(kBadInput) naming the file: no picture, damaged, another size than the
-/// others, too large for opening_limit(memory_bytes).
+/// with masks from options.masks and of what is transparent, and notes what is dropped. Reads
+/// headers, a picture that may be cut short, and of those deeper than 8 bit or with an alpha
+/// channel a few. Views whose picture is missing, damaged or, of more than four, of another size
+/// than nearly all are left out with a note; kind becomes that of the rest. Throws Error(kBadInput)
+/// naming the file: fewer than two are left, several sizes, a fault with options.strict, too large
+/// for opening_limit(options.memory_bytes).
 void attach_pictures(LightField& light_field, std::vector<std::filesystem::path> files,
-                     double memory_bytes);
+                     const OpenOptions& options);
 
 }  // namespace gigaray

@@ -5,14 +5,15 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
-#include <limits>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <set>
-#include <system_error>
 
 #include "gigaray/adapters/input_file.h"
+#include "mask_folder.h"
 #include "picture_alpha.h"
+#include "picture_faults.h"
 #include "picture_files.h"
 #include "picture_values.h"
 #include "undistortion.h"
@@ -78,14 +79,9 @@ class PosedPictures : public PixelSource {
     if (seen.width() != source.width || seen.height() != source.height)
       bad(source.file, "has another size than when it was opened");
     if (source.mask.empty()) return seen;
-    PictureSpec spec;
-    const Image<std::uint16_t> mask =
-        decode_picture(source.mask, Orientation::kIgnored, spec, limit_);
-    if (mask.width() != source.width || mask.height() != source.height)
-      bad(source.mask, "has another size than when it was opened");
-    for (int v = 0; v < seen.height(); ++v)
-      for (int u = 0; u < seen.width(); ++u)
-        seen(u, v) &= mask(u, v, 0) != 0 || mask(u, v, 1) != 0 || mask(u, v, 2) != 0;
+    const Mask mask =
+        read_mask(source.mask, source.width, source.height, Orientation::kIgnored, limit_);
+    std::ranges::transform(seen, mask, seen.begin(), std::bit_and<>());
     return seen;
   }
 
@@ -167,15 +163,6 @@ bool is_scaled(const Lens& lens, const Source& source) {
   return std::abs(width - source.width) <= 1 || std::abs(height - source.height) <= 1;
 }
 
-void check_mask(const Source& source, double limit) {
-  if (source.mask.empty()) return;
-  const PictureSpec spec = read_picture_spec(source.mask, Orientation::kIgnored, limit);
-  if (spec.width != source.width || spec.height != source.height)
-    bad(source.mask, "has " + size_text(spec.width, spec.height) + " pixels, its picture " +
-                         source.file.filename().string() + " has " +
-                         size_text(source.width, source.height) + "; a mask needs the same size");
-}
-
 Camera camera_of(const PosedPicture& picture, const Source& source) {
   const LensMap lens(picture.lens, source.width, source.height);
   Camera camera;
@@ -195,61 +182,25 @@ Camera camera_of(const PosedPicture& picture, const Source& source) {
 void leave_out_faulty(std::vector<PosedPicture>& pictures, bool strict, double limit,
                       std::vector<std::string>& notes) {
   for (PosedPicture& picture : pictures)
-    if (picture.fault.empty()) picture.fault = fault_of_picture(picture.file, limit);
+    if (picture.fault.empty())
+      picture.fault = fault_of_picture(picture.file, Orientation::kIgnored, limit);
   const auto usable = std::stable_partition(
       pictures.begin(), pictures.end(), [](const auto& picture) { return picture.fault.empty(); });
   if (usable == pictures.end()) return;
-  const std::vector<PosedPicture> faulty(usable, pictures.end());
+  std::vector<PictureFault> faulty;
+  for (auto picture = usable; picture != pictures.end(); ++picture)
+    faulty.push_back({picture->name, picture->file, picture->fault});
   const std::size_t all = pictures.size();
   pictures.erase(usable, pictures.end());
-  if (strict) throw Error(ErrorCode::kBadInput, faulty.front().fault);
+  if (strict) throw Error(ErrorCode::kBadInput, faulty.front().why);
   if (pictures.size() < kLeastPictures)
-    throw Error(ErrorCode::kBadInput, faulty.front().fault + "; of " + std::to_string(all) +
+    throw Error(ErrorCode::kBadInput, faulty.front().why + "; of " + std::to_string(all) +
                                           " pictures " + (pictures.empty() ? "none" : "only one") +
                                           " can be used, depth needs two");
   notes.push_back(left_out_text(faulty, all));
 }
 
 }  // namespace
-
-std::string left_out_text(const std::vector<PosedPicture>& faulty, std::size_t of) {
-  constexpr std::size_t kMostNamed = 5;
-  std::string text = std::to_string(faulty.size()) + " of " + std::to_string(of) +
-                     (faulty.size() == 1 ? " pictures is left out: " : " pictures are left out: ");
-  for (std::size_t i = 0; i < std::min(faulty.size(), kMostNamed); ++i) {
-    const std::string path = faulty[i].file.string() + ": ";
-    const std::string& fault = faulty[i].fault;
-    text += (i > 0 ? ", " : "") + faulty[i].name + " (" +
-            (fault.starts_with(path) ? fault.substr(path.size()) : fault) + ")";
-  }
-  if (faulty.size() > kMostNamed)
-    text += " and " + std::to_string(faulty.size() - kMostNamed) + " more";
-  return text;
-}
-
-std::string fault_of_picture(const fs::path& file, double limit) {
-  std::error_code ignored;
-  if (!fs::exists(file, ignored)) return file.string() + ": is missing";
-  try {
-    read_picture_spec(file, Orientation::kIgnored, limit);
-  } catch (const Error& problem) {
-    // What is too large for the limit alone is no fault of the picture.
-    try {
-      read_picture_spec(file, Orientation::kIgnored, std::numeric_limits<double>::infinity());
-    } catch (const Error&) {
-      return problem.what();
-    }
-    throw;
-  }
-  if (!may_be_cut_short(file)) return {};
-  try {
-    PictureSpec spec;
-    decode_picture(file, Orientation::kIgnored, spec, limit);
-  } catch (const Error& problem) {
-    return problem.what();
-  }
-  return {};
-}
 
 LightField posed_light_field(std::vector<PosedPicture> pictures, const std::string& format,
                              double memory_bytes, bool strict) {
@@ -266,7 +217,7 @@ LightField posed_light_field(std::vector<PosedPicture> pictures, const std::stri
   std::vector<Source> sources;
   std::vector<PictureSpec> specs;
   Undistortions undistortions;
-  int num_scaled = 0, num_undistorted = 0, num_transparent = 0;
+  int num_scaled = 0, num_undistorted = 0, num_transparent = 0, num_masks_scaled = 0;
   bool masked = false, turned = false;
   for (const PosedPicture& picture : pictures) {
     check(picture.lens, picture.file.string());
@@ -281,7 +232,9 @@ LightField posed_light_field(std::vector<PosedPicture> pictures, const std::stri
                             size_text(picture.lens.width, picture.lens.height) +
                             ", which is no scaled size of it; give the pictures that the cameras "
                             "were found with");
-    check_mask(source, limit);
+    if (!source.mask.empty())
+      num_masks_scaled += is_mask_scaled(source.mask, source.file, source.width, source.height,
+                                         Orientation::kIgnored, limit);
     if (!is_pinhole(picture.lens)) source.undistortion = undistortions.of(picture.lens, source);
     num_undistorted += source.undistortion != nullptr;
     num_scaled += spec.width != picture.lens.width || spec.height != picture.lens.height;
@@ -317,6 +270,7 @@ LightField posed_light_field(std::vector<PosedPicture> pictures, const std::stri
   if (num_transparent > 0)
     notes.push_back("the alpha channel of " + std::to_string(num_transparent) + of_all +
                     " masks what is transparent");
+  if (num_masks_scaled > 0) notes.push_back(scaled_masks_text(num_masks_scaled));
   if (num_scaled > 0)
     notes.push_back(std::to_string(num_scaled) + of_all +
                     " have another size than their cameras state; the cameras are scaled");

@@ -10,6 +10,7 @@
 
 #include "gigaray/adapters/lens.h"
 #include "gigaray/light_field.h"
+#include "picture_faults.h"
 
 namespace gigaray {
 
@@ -24,16 +25,6 @@ struct PosedPicture {
   std::filesystem::path mask;  ///< picture, black: leave out; empty: none
   std::string fault;           ///< why it can't be used, one line; empty: it can
 };
-
-/// Fewest pictures of a capture that must be usable.
-inline constexpr std::size_t kLeastPictures = 2;
-
-/// Why a picture can't be used, one line that names it: it is missing, damaged or cut short. Empty:
-/// it can. Throws Error(kBadInput) when it takes more than `limit` bytes.
-std::string fault_of_picture(const std::filesystem::path& file, double limit);
-
-/// "2 of 6 pictures are left out: b.png (is missing), d.png (…)"
-std::string left_out_text(const std::vector<PosedPicture>& faulty, std::size_t of);
 
 /// An unstructured light field of photographs: undistorted to pinhole cameras of the same focal
 /// length and principal point when read, brought to a common size with the rest masked, placed by

@@ -106,13 +106,17 @@ LightField open_light_field(const fs::path& input, const OpenOptions& options) {
   light_field.format = reader.name();
   for (std::vector<View>* views : {&light_field.views, &light_field.left_out})
     for (View& view : *views) view.name = view_name_of(view.name);
-  if (light_field.kind != LightFieldKind::kUnstructured)
-    for (const auto& [option, folder] :
-         {std::pair("--images", options.images), std::pair("--masks", options.masks)})
-      if (!folder.empty())
-        throw Error(ErrorCode::kInvalidArgument,
-                    std::string(option) + ": goes with photographs whose cameras are known, not " +
-                        "with a light field of the format " + light_field.format);
+  const bool is_posed = light_field.kind == LightFieldKind::kUnstructured;
+  if (!options.images.empty() && !is_posed)
+    throw Error(
+        ErrorCode::kInvalidArgument,
+        "--images: goes with photographs whose cameras are known, not with a light field of "
+        "the format " +
+            light_field.format);
+  if (!options.masks.empty() && !is_posed && !light_field.pixels->has_mask())
+    throw Error(ErrorCode::kInvalidArgument,
+                "--masks: goes with pictures in files, not with a light field of the format " +
+                    light_field.format);
   try {
     check(light_field);
   } catch (const Error& problem) {

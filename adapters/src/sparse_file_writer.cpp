@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Gigaray authors
 #include <algorithm>
+#include <memory>
+#include <utility>
 
 #include "gigaray/adapters/sparse_file.h"
 #include "gigaray/parallel.h"
@@ -21,6 +23,20 @@ Image<std::uint16_t> rows_of(const Image<std::uint16_t>& picture, RowRange rows)
   return part;
 }
 
+class WithoutMasks : public PixelSource {
+ public:
+  explicit WithoutMasks(std::shared_ptr<const PixelSource> pixels) : pixels_(std::move(pixels)) {}
+  int bit_depth() const override { return pixels_->bit_depth(); }
+  Image<std::uint16_t> read(int view_idx) const override {
+    Image<std::uint16_t> picture = pixels_->read(view_idx);
+    take_mask(picture);
+    return picture;
+  }
+
+ private:
+  std::shared_ptr<const PixelSource> pixels_;
+};
+
 struct CodedBand {
   std::string bytes;
   std::uint64_t unexplained = 0;
@@ -28,12 +44,15 @@ struct CodedBand {
 
 }  // namespace
 
-SparseFileReport write_sparse_file(AtomicFile output, const LightField& light_field,
+SparseFileReport write_sparse_file(AtomicFile output, const LightField& given,
                                    const DisparityOfView& disparity,
                                    const SparseFileOptions& options, const RunControl& control) {
-  check(light_field);
-  if (light_field.pixels->has_mask())
-    throw Error(ErrorCode::kInvalidArgument, "a sparse light field can't keep masks");
+  check(given);
+  LightField light_field = given;
+  if (given.pixels->has_mask()) {
+    light_field.pixels = std::make_shared<WithoutMasks>(given.pixels);
+    control.message("a sparse light field keeps the colours under masks, not the masks");
+  }
   const int most = (1 << light_field.pixels->bit_depth()) - 1;
   if (options.max_error < 0 || options.max_error > most / 2)
     throw Error(ErrorCode::kInvalidArgument,

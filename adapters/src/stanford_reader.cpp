@@ -85,7 +85,7 @@ class StanfordReader : public Reader {
       lowest = std::min(lowest, across);
       highest = std::max(highest, across);
     }
-    attach_pictures(light_field, std::move(files), options.memory_bytes);
+    attach_pictures(light_field, std::move(files), options);
     if (light_field.num_views() >= 2)
       light_field.rig.baseline = normalise_positions(light_field.views);
     if (one_row != one_column)

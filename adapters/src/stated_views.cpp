@@ -142,7 +142,7 @@ LightField open_stated_views(std::vector<StatedView> views, const fs::path& file
     picture.name = view_name[i];
     picture.fault = view.fault;
     if (picture.fault.empty() && view.lens.width == 0)
-      picture.fault = fault_of_picture(picture.file, limit);
+      picture.fault = fault_of_picture(picture.file, Orientation::kIgnored, limit);
     if (picture.fault.empty()) complete_lens(view, picture.file, limit);
     picture.lens = view.lens;
     picture.rotation = view.pose.rotation;

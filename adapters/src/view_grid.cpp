@@ -22,6 +22,16 @@ double mean_value(const Image<std::uint16_t>& picture) {
   return std::accumulate(picture.begin(), picture.end(), 0.0) / double(picture.size());
 }
 
+double mean_of_seen(const Image<std::uint16_t>& picture, const Mask& seen) {
+  double sum = 0, count = 0;
+  for (std::size_t i = 0; i < seen.size(); ++i) {
+    if (seen.data()[i] == 0) continue;
+    sum += std::accumulate(picture.data() + 3 * i, picture.data() + 3 * i + 3, 0.0);
+    count += 3;
+  }
+  return count > 0 ? sum / count : 0;
+}
+
 bool is_dark(double mean, double middle) { return mean < kBrightEnough * middle; }
 
 void note_dark(LightField& light_field, std::size_t dark, std::size_t of) {
@@ -77,7 +87,11 @@ void attach_bright_views(LightField& light_field, std::vector<Image<std::uint16_
 
 void leave_out_dark_views(LightField& light_field) {
   if (light_field.kind != LightFieldKind::k4D) return;
-  const auto mean = [&](int view) { return mean_value(read_view(light_field, view)); };
+  const auto mean = [&](int view) {
+    Image<std::uint16_t> picture = read_view(light_field, view);
+    const auto seen = take_mask(picture);
+    return seen ? mean_of_seen(picture, *seen) : mean_value(picture);
+  };
   const double middle = mean(centre_view(light_field));
   const std::vector<View>& views = light_field.views;
   bool is_vignetted = false;

@@ -214,7 +214,7 @@ TEST_F(ColmapWorkspace, OptionsThatDoNotGoWithItAreRefused) {
   std::filesystem::remove_all(folder / "sparse");
   options = {};
   options.masks = folder;
-  expect_error(ErrorCode::kInvalidArgument, "--masks",
+  expect_error(ErrorCode::kBadInput, "holds no mask of any picture",
                [&] { open_light_field(folder / "images", options); });
   options = {};
   options.images = folder;

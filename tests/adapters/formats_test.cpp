@@ -69,6 +69,26 @@ TEST_F(Hci, ParametersGiveRangeAndRig) {
   EXPECT_EQ(light_field.rig.unit, "m");
 }
 
+TEST_F(Hci, ParametersComeInDialects) {
+  save_camera(6);
+  save_camera(7);
+  for (const std::string text :
+       {"\xef\xbb\xbf[intrinsics]\r\nfocal_length_mm: 100.0\r\nsensor_size_mm: 40\r\n"
+        "disp_min: -1.5\r\ndisp_max: 2\r\nbaseline_mm: 25",
+        "Focal_Length_MM = 100 ; mm\nSENSOR_SIZE_MM=40 # of the longer side\n"
+        "DISP_MIN = \"-1.5\"\ndisp_max = '2' ; px\nbaseline_mm = 25 ; mm: between neighbours\n"
+        "# disp_max = 9\n; disp_min = -9\n",
+        "\"focal_length_mm\" : \"100\"\n'sensor_size_mm' : 40\n disp_min\t:\t-1.5\n"
+        "disp_max :2\nbaseline_mm : 25\n"}) {
+    SCOPED_TRACE(text);
+    write("parameters.cfg", text);
+    const LightField light_field = open_light_field(folder);
+    EXPECT_EQ(light_field.declared_range, (DisparityRange{-1.5, 2}));
+    EXPECT_DOUBLE_EQ(light_field.rig.focal_px.value(), 2.5 * kWidth);
+    EXPECT_DOUBLE_EQ(light_field.rig.baseline.value(), 0.025);
+  }
+}
+
 TEST_F(Hci, CrossWithoutParametersIsPlacedInNineByNine) {
   for (const int number : {4, 36, 38, 39, 40, 44, 76}) save_camera(number);
   const LightField light_field = open_light_field(folder);

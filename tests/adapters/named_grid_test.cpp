@@ -90,6 +90,8 @@ TEST_F(NamedGrid, TwoSetsAreRefused) {
 TEST_F(NamedGrid, MixedSizesNameTheFile) {
   save_pattern("%02d_%02d.png");
   save("03_00.png", picture(CV_8UC3, kWidth, kHeight + 1));
+  save("03_01.png", picture(CV_8UC3, kWidth, kHeight + 1));
+  save("03_02.png", picture(CV_8UC3, kWidth, kHeight + 1));
   expect_bad_input("03_00.png");
 }
 

@@ -289,6 +289,9 @@ static inline __attribute__((always_inline)) void sample_block(__global const fl
 #define TAP_WIDTH (CHANNELS > 3 ? 8 : 4)
 // Red of a sample that a masked pixel has part in, see kMaskedColour.
 #define MASKED_SAMPLE -1.0f
+// The taps of cubic interpolation may also take part away from it: a red farther than this from the
+// middle of all colours is that of no picture.
+#define MASKED_BEYOND 1.5f
 
 // Where another view sees LANES pixels, px, and how that place changes with the pixel.
 typedef struct {

@@ -16,6 +16,9 @@
 #ifndef ITERATIONS
 #define ITERATIONS 10  // mean-shift iterations before the score (eq. 5); 0: none
 #endif
+#ifndef MASKED
+#define MASKED 0  // 1: some pixels of the band are masked, samples of them count for nothing
+#endif
 #ifndef STAGE
 #define STAGE 1
 #endif
@@ -69,6 +72,9 @@ static inline Sample take_sample(__global const float* source, const BandParams 
   BlockPosition at;
   if (!place_block(p, ways[k], u, v, &at, &inside)) return nothing;
   sample_block(source, p, k, at, 0, 3, colour);
+#if MASKED
+  inside = VSELECT((vfloat)(0.0f), inside, fabs(colour[0] - 0.5f) <= MASKED_BEYOND);
+#endif
 #else
   LanePlaces at;
   locate_lanes(ways, k, PIXELS_FROM(u), (vfloat)(v), h, &at);

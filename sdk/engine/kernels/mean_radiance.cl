@@ -48,7 +48,7 @@ static inline void sample_pixels(__global const float* band, const BandParams p,
       continue;
     float sample[3];
     sample_colour(band, p, k, xi, yi, fx, fy, sample);
-    if (sample[0] < MASKED_SAMPLE) continue;
+    if (fabs(sample[0] - 0.5f) > MASKED_BEYOND) continue;
     for (int c = 0; c < 3; ++c) values[c][lane] = sample[c];
   }
   for (int c = 0; c < 3; ++c) colour[c] = VLOAD(values[c]);

@@ -50,7 +50,7 @@ __kernel void ray_mean(__global const float* band, const BandParams p, const Str
       sample[c] = dot(wx, column);
       d2 += (sample[c] - own[c]) * (sample[c] - own[c]);
     }
-    if (sample[0] < MASKED_SAMPLE) continue;
+    if (fabs(sample[0] - 0.5f) > MASKED_BEYOND) continue;
     const float w = max(1.0f - sqrt(d2) / bandwidth, 0.0f);
     weights += w;
     UNROLL

@@ -17,6 +17,9 @@
 #ifndef UNITS
 #define UNITS 1
 #endif
+#ifndef MASKED
+#define MASKED 0  // 1: some pixels of the band are masked, samples of them count for nothing
+#endif
 #ifndef HALF_PLANES
 #define HALF_PLANES 0
 #endif
@@ -140,8 +143,12 @@ __kernel void robust_score(__global const float* band, const BandParams p, const
       for (int j = 0; j < UNITS; ++j) {
         if (j < view.first || j > view.last) continue;
         const vint column = x + j * LANES + VLANES;
-        const vfloat inside =
+        vfloat inside =
             VSELECT((vfloat)(0.0f), (vfloat)(1.0f), column >= 0 && column <= last_column);
+#if MASKED
+        // Three channels beyond those of any picture.
+        inside = VSELECT((vfloat)(0.0f), inside, squared[j] < 12.0f);
+#endif
         colour[j] = inside * max(1.0f - sqrt(squared[j]) * inverse_h, (vfloat)(0.0f));
         largest = max(largest, colour[j]);
         UNROLL

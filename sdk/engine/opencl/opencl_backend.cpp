@@ -94,6 +94,7 @@ class OpenClBackend : public Backend {
       plain_kernel("unpack_channels", "unpack_gradients", options)
           .set_args(band_, band)
           .run(all, WorkSize(1, 1));
+    is_masked_ = mask != nullptr;
     if (mask) {
       const std::size_t pixels = std::size_t(rows.size()) * band_.num_views * band_.width;
       Buffer& device_mask = mask_.at_least(device_, pixels);
@@ -161,7 +162,8 @@ class OpenClBackend : public Backend {
         own_rows_.size() > 0 ? against_means(setup_.options.score) : setup_.options.score;
     const bool halves = views == ScoreViews::kHalfPlanes;
     LaneKernel& kernel =
-        lane_kernel("robust_score", define("CUBIC", score.cubic) + define("HALF_PLANES", halves));
+        lane_kernel("robust_score",
+                    define("CUBIC", score.cubic) + define("HALF_PLANES", halves) + masked_define());
     const ViewSet& members = view_set(ref, views);
     Buffer& scores = raw_volume(rows);
     const float floor_views = (halves ? kLeastHalfPlane : score.floor_views) * float(members.used);
@@ -427,10 +429,15 @@ class OpenClBackend : public Backend {
     return std::max(1, int(std::ceil(setup_.options.score.min_views * float(used))));
   }
 
+  /// Samples from taps know masked pixels anyway.
+  std::string masked_define() const {
+    return is_masked_ && all_views_.rays_shift_alike ? define("MASKED", 1) : "";
+  }
+
   std::string score_defines() const {
     const ScoreOptions& score = setup_.options.score;
     return define("ITERATIONS", score.mean_shift_iterations) + define("GRADIENT", score.gradient) +
-           define("CUBIC", score.cubic);
+           define("CUBIC", score.cubic) + masked_define();
   }
 
   /// From now on the band holds these views.
@@ -505,6 +512,7 @@ class OpenClBackend : public Backend {
   int level_ = 0;
   std::vector<int> active_views_, loaded_views_;
   std::vector<int> places_;              ///< of all views among loaded_views_
+  bool is_masked_ = false;               ///< some pixels of the band may be
   int rays_ref_ = -1, shifts_ref_ = -1;  ///< The views that rays_buffer_ and shifts_ are for.
   RowRange score_rows_;
   RowRange raw_rows_;                 ///< of raw_scores_

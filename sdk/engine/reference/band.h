@@ -52,8 +52,9 @@ inline std::array<float, 4> tap_weights(float f, bool cubic) {
           0.5f * f3 - 0.5f * f2};
 }
 
-/// A sample with less red has a masked pixel in it (kMaskedColour); cubic taps overshoot by less.
-constexpr float kMaskedSample = -1;
+/// A sample whose red is farther from the middle of all colours has a masked pixel in it
+/// (kMaskedColour), which cubic taps may also take away; their overshoot is less.
+constexpr float kMaskedBeyond = 1.5F;
 
 /// Positions this near to a pixel centre are that centre, px. Otherwise rounding would decide
 /// whether the last column is inside the picture.
@@ -83,7 +84,7 @@ inline std::optional<Sample> sample_at(const Band& band, int view, double u, dou
         sample[c] += wv[y + 1] * wu[x + 1] * band.plane(view, row, c)[column];
     }
   }
-  if (sample[0] < kMaskedSample) return std::nullopt;
+  if (std::abs(sample[0] - 0.5F) > kMaskedBeyond) return std::nullopt;
   return sample;
 }
 

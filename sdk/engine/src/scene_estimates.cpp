@@ -410,7 +410,7 @@ NoiseEstimate estimate_noise(const LightField& light_field, const HypothesisRang
     control.throw_if_cancelled();
     for (int u = kGrid / 2; u < light_field.width; u += kGrid) {
       const Sample own = band.pixel(0, u, centres[i]);
-      if (own[0] < reference::kMaskedSample) continue;
+      if (std::abs(own[0] - 0.5F) > reference::kMaskedBeyond) continue;
       float best_colour = kColourCap, best_gradient = kGradientCap, sum_of_all = 0;
       int tested = 0;
       for (int h = 0; h < hypotheses.count; ++h) {

@@ -47,8 +47,8 @@ struct OpenOptions {
   LensletGrid lenslet = {};
   /// Folder of the pictures, when they are not where a model of their cameras lies.
   std::filesystem::path images = {};
-  /// Folder of masks of pictures with known cameras, black where nothing is to be looked at:
-  /// NAME.png for the picture NAME, or the name with .png as its extension. Empty: none.
+  /// Folder of masks, black where nothing is to be looked at: NAME.png for the picture NAME, or the
+  /// name with .png as its extension, and more (docs/formats.md). Empty: none.
   std::filesystem::path masks = {};
   /// Most memory that opening the input and decoding one of its pictures may take, bytes. 0:
   /// default_memory_limit().
@@ -57,8 +57,9 @@ struct OpenOptions {
   GridSize grid = {};
   /// How the matrices of stated poses are meant. Empty: as the format has it.
   std::optional<PoseConvention> convention = {};
-  /// Photographs with known cameras: one that is missing or damaged, or whose pose holds a number
-  /// that is not finite, is an error. Else it is left out, with a note.
+  /// A picture that is missing or damaged, whose pose holds a number that is not finite, or, in
+  /// rows and grids, that has another size than nearly all is an error. Else it is left out, with a
+  /// note.
   bool strict = false;
 };
 
