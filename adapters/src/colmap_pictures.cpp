@@ -2,13 +2,18 @@
 // Copyright (c) 2026 The Gigaray authors
 #include "colmap_pictures.h"
 
+#include <algorithm>
 #include <memory>
 #include <system_error>
 
+#include "file_type.h"
 #include "gigaray/adapters/atomic_output.h"
 #include "gigaray/adapters/input_file.h"
+#include "mask_folder.h"
+#include "picture_faults.h"
 #include "picture_loading.h"
 #include "picture_values.h"
+#include "text.h"
 
 namespace gigaray {
 namespace {
@@ -70,41 +75,98 @@ void write_copy(const fs::path& from, const fs::path& to, const ValueScale& scal
 
 }  // namespace
 
-ColmapPictures::ColmapPictures(const fs::path& folder, const std::vector<std::string>& names,
-                               const fs::path& copies, const RunControl& control)
-    : folder_(folder) {
-  const double limit = opening_limit();
-  std::vector<bool> is_copied;
-  for (const std::string& name : names) {
-    specs_.push_back(read_picture_spec(folder / name, Orientation::kIgnored, limit));
-    is_copied.push_back(!is_read_by_colmap(folder / name, specs_.back()));
-    num_copies_ += is_copied.back();
+ColmapPictures::ColmapPictures(const fs::path& photographs, const fs::path& work, bool strict,
+                               const RunControl& control)
+    : photographs_(photographs), work_(work), folder_(photographs), limit_(opening_limit()) {
+  std::vector<PictureFault> faulty;
+  for (const fs::path& path : pictures_of(photographs)) {
+    const std::string name = path.filename().string();
+    PictureSpec spec;
+    const std::string why = fault_of_picture(path, Orientation::kIgnored, limit_, &spec);
+    if (why.empty()) {
+      names_.push_back(name);
+      specs_.push_back(spec);
+    } else {
+      faulty.push_back({name, path, why});
+    }
   }
-  if (num_copies_ == 0) return;
+  if (!faulty.empty() && (strict || names_.size() < 2))
+    throw Error(ErrorCode::kBadInput, faulty.front().why);
+  if (names_.size() < 2) {
+    const std::string why = why_no_pictures(photographs);
+    throw Error(ErrorCode::kBadInput, photographs.string() + ": holds " +
+                                          (names_.empty() ? "no photograph" : "one photograph") +
+                                          ", cameras need two or more to be found" +
+                                          (why.empty() ? "" : "; " + why));
+  }
+  if (!faulty.empty()) control.message(left_out_text(faulty, names_.size() + faulty.size()));
+}
+
+void ColmapPictures::write_copies(const fs::path& masks, const RunControl& control) {
+  if (!masks.empty()) write_masks(masks);
+  std::vector<bool> is_copied;
+  for (std::size_t i = 0; i < names_.size(); ++i)
+    is_copied.push_back(!is_read_by_colmap(photographs_ / names_[i], specs_[i]));
+  const auto count = std::ranges::count(is_copied, true);
+  if (count == 0) return;
+  copy_photographs(is_copied, control);
+  control.message(std::to_string(count) + " of " + std::to_string(names_.size()) +
+                  " photographs are copied to 8-bit JPEG for COLMAP, which can't read them");
+}
+
+void ColmapPictures::copy_photographs(const std::vector<bool>& is_copied,
+                                      const RunControl& control) {
   std::vector<fs::path> files;
-  for (const std::string& name : names) files.push_back(folder / name);
+  for (const std::string& name : names_) files.push_back(photographs_ / name);
   std::vector<std::string> same_notes_as_when_opened;
-  const ValueScale scale = scale_of(files, specs_, limit, same_notes_as_when_opened);
-  copies_ = folder_ = copies;
+  const ValueScale scale = scale_of(files, specs_, limit_, same_notes_as_when_opened);
+  folder_ = work_ / "copies";
   std::error_code error;
-  fs::create_directories(copies, error);
+  fs::create_directories(folder_, error);
   if (error)
-    throw Error(ErrorCode::kIo, copies.string() + ": can't be written (" + error.message() + ")");
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    control.progress("COLMAP: copies", double(i), double(names.size()));
+    throw Error(ErrorCode::kIo, folder_.string() + ": can't be written (" + error.message() + ")");
+  for (std::size_t i = 0; i < names_.size(); ++i) {
+    control.progress("COLMAP: copies", double(i), double(names_.size()));
     control.throw_if_cancelled();
     if (is_copied[i])
-      write_copy(folder / names[i], copies / names[i], scale, limit);
+      write_copy(files[i], folder_ / names_[i], scale, limit_);
     else
-      fs::create_symlink(fs::absolute(folder / names[i]), copies / names[i]);
+      fs::create_symlink(fs::absolute(files[i]), folder_ / names_[i]);
   }
-  control.message(std::to_string(num_copies_) + " of " + std::to_string(names.size()) +
-                  " photographs are copied to 8-bit JPEG for COLMAP, which can't read them");
+}
+
+void ColmapPictures::write_masks(const fs::path& from) {
+  masks_ = work_ / "masks";
+  fs::create_directory(masks_);
+  const MaskFolder known(from);
+  bool any = false;
+  for (std::size_t i = 0; i < names_.size(); ++i) {
+    const fs::path mask = known.find(names_[i]);
+    if (mask.empty()) continue;
+    any = true;
+    const int width = specs_[i].width, height = specs_[i].height;
+    const fs::path target = masks_ / (names_[i] + ".png");
+    const bool is_scaled = is_mask_scaled(mask, photographs_ / names_[i], width, height,
+                                          Orientation::kIgnored, limit_);
+    if (!is_scaled && lower(mask.extension().string()) == ".png") {
+      fs::create_symlink(fs::absolute(mask), target);
+      continue;
+    }
+    const Mask seen = read_mask(mask, width, height, Orientation::kIgnored, limit_);
+    Image<std::uint16_t> black_and_white(width, height);
+    std::ranges::transform(seen, black_and_white.begin(),
+                           [](std::uint8_t value) { return std::uint16_t(value ? 255 : 0); });
+    write_png(target, black_and_white, 8);
+  }
+  if (!any)
+    throw Error(ErrorCode::kBadInput, from.string() +
+                                          ": holds no mask of any photograph; that of " +
+                                          names_.front() + " is " + names_.front() + ".png");
 }
 
 ColmapPictures::~ColmapPictures() {
   std::error_code ignored;
-  if (!copies_.empty()) fs::remove_all(copies_, ignored);
+  if (folder_ != photographs_) fs::remove_all(folder_, ignored);
 }
 
 }  // namespace gigaray

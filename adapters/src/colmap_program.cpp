@@ -13,13 +13,9 @@
 
 #include "colmap_folders.h"
 #include "colmap_pictures.h"
-#include "file_type.h"
 #include "gigaray/adapters/atomic_output.h"
 #include "gigaray/adapters/child_process.h"
 #include "gigaray/adapters/input_file.h"
-#include "gigaray/adapters/pictures.h"
-#include "mask_folder.h"
-#include "picture_faults.h"
 #include "picture_files.h"
 #include "text.h"
 
@@ -153,31 +149,6 @@ class FeatureCounts {
   std::set<std::string> found_;
 };
 
-/// Those that can be read. The others are named; with `strict` the first is an error.
-Words names_of_photographs(const fs::path& folder, bool strict, const RunControl& control) {
-  Words names;
-  std::vector<PictureFault> faulty;
-  for (const fs::path& path : pictures_of(folder)) {
-    const std::string name = path.filename().string();
-    const std::string why = fault_of_picture(path, Orientation::kIgnored, opening_limit());
-    if (why.empty())
-      names.push_back(name);
-    else
-      faulty.push_back({name, path, why});
-  }
-  if (!faulty.empty() && (strict || names.size() < 2))
-    throw Error(ErrorCode::kBadInput, faulty.front().why);
-  if (names.size() < 2) {
-    const std::string why = why_no_pictures(folder);
-    throw Error(ErrorCode::kBadInput, folder.string() + ": holds " +
-                                          (names.empty() ? "no photograph" : "one photograph") +
-                                          ", cameras need two or more to be found" +
-                                          (why.empty() ? "" : "; " + why));
-  }
-  if (!faulty.empty()) control.message(left_out_text(faulty, names.size() + faulty.size()));
-  return names;
-}
-
 bool share_one_camera(const std::vector<PictureSpec>& specs) {
   return std::all_of(specs.begin(), specs.end(), [&](const PictureSpec& spec) {
     const PictureSpec& first = specs.front();
@@ -230,39 +201,6 @@ Words size_arguments(Program& program, int max_size) {
           std::to_string(std::max(max_size, kLeast))};
 }
 
-/// A folder with masks of the names and sizes that COLMAP looks for, when there are masks.
-Words mask_arguments(const fs::path& masks, const Words& names,
-                     const std::vector<PictureSpec>& specs, const fs::path& work, double limit) {
-  if (masks.empty()) return {};
-  const fs::path folder = work / "masks";
-  fs::create_directory(folder);
-  const MaskFolder known(masks);
-  bool any = false;
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    const fs::path mask = known.find(names[i]);
-    if (mask.empty()) continue;
-    any = true;
-    const int width = specs[i].width, height = specs[i].height;
-    const fs::path target = folder / (names[i] + ".png");
-    const bool is_scaled =
-        is_mask_scaled(mask, folder / names[i], width, height, Orientation::kIgnored, limit);
-    if (!is_scaled && lower(mask.extension().string()) == ".png") {
-      fs::create_symlink(fs::absolute(mask), target);
-      continue;
-    }
-    const Mask seen = read_mask(mask, width, height, Orientation::kIgnored, limit);
-    Image<std::uint16_t> black_and_white(width, height);
-    std::ranges::transform(seen, black_and_white.begin(),
-                           [](std::uint8_t value) { return std::uint16_t(value ? 255 : 0); });
-    write_png(target, black_and_white, 8);
-  }
-  if (!any)
-    throw Error(ErrorCode::kBadInput, masks.string() +
-                                          ": holds no mask of any photograph; that of " +
-                                          names.front() + " is " + names.front() + ".png");
-  return {"--ImageReader.mask_path", folder.string()};
-}
-
 Words joined(std::initializer_list<Words> parts) {
   Words all;
   for (const Words& part : parts) all.insert(all.end(), part.begin(), part.end());
@@ -294,11 +232,14 @@ void check_features(const FeatureCounts& features, const Words& names, const fs:
 }
 
 void find_features(Program& program, const fs::path& folder, const ColmapPictures& pictures,
-                   const fs::path& work, const Words& names, const ColmapRunOptions& options,
+                   const fs::path& work, const ColmapRunOptions& options,
                    const RunControl& control) {
+  const Words& names = pictures.names();
   const std::vector<PictureSpec>& specs = pictures.specs();
   const Words cameras = camera_arguments(folder, names, specs, options.lens);
-  const Words masks = mask_arguments(options.masks, names, specs, work, opening_limit());
+  const Words masks = pictures.masks().empty()
+                          ? Words()
+                          : Words{"--ImageReader.mask_path", pictures.masks().string()};
   std::string list;
   for (const std::string& name : names) list += name + "\n";
   write_file_atomically(work / "photographs.txt", list);
@@ -361,7 +302,8 @@ void find_cameras(Program& program, const fs::path& folder, const fs::path& work
 
 ColmapRun run_colmap(const fs::path& photographs, const fs::path& work,
                      const ColmapRunOptions& options, const RunControl& control) {
-  const Words names = names_of_photographs(photographs, options.strict, control);
+  ColmapPictures pictures(photographs, work, options.strict, control);
+  const Words& names = pictures.names();
   if (is_missing(kProgram))
     throw Error(ErrorCode::kIo,
                 "colmap: is not installed; install the package `colmap`, which finds the cameras "
@@ -371,8 +313,8 @@ ColmapRun run_colmap(const fs::path& photographs, const fs::path& work,
   result.log = work / kColmapLog;
   result.num_pictures = int(names.size());
   Program program(result.log, control);
-  const ColmapPictures pictures(photographs, names, work / "copies", control);
-  find_features(program, photographs, pictures, work, names, options, control);
+  pictures.write_copies(options.masks, control);
+  find_features(program, photographs, pictures, work, options, control);
   match_features(program, work, names.size(), control);
   find_cameras(program, pictures.folder(), work, names.size(), options);
 

@@ -102,6 +102,26 @@ std::vector<double> steps_from_numbers(const std::vector<std::uint64_t>& numbers
   return steps;
 }
 
+/// Where the pictures are instead, when the folder itself holds none.
+std::string pictures_inside(const fs::path& input) {
+  constexpr std::size_t kMostNamed = 3;
+  std::error_code error;
+  std::vector<fs::path> inside;
+  for (auto entry = fs::directory_iterator(input, error);
+       !error && entry != fs::directory_iterator(); entry.increment(error)) {
+    std::error_code ignored;
+    if (entry->is_directory(ignored) && !pictures_of(entry->path()).empty())
+      inside.push_back(entry->path());
+  }
+  if (inside.empty()) return " (folders inside it are not searched)";
+  std::ranges::sort(inside);
+  std::string text = inside.size() == 1 ? "; one inside it holds pictures, name that: "
+                                        : "; folders inside it hold pictures, name one: ";
+  for (std::size_t i = 0; i < std::min(inside.size(), kMostNamed); ++i)
+    text += (i > 0 ? ", " : "") + inside[i].string();
+  return text + (inside.size() > kMostNamed ? " …" : "");
+}
+
 class ImageSequenceReader : public Reader {
  public:
   std::string name() const override { return "image sequence"; }
@@ -117,8 +137,8 @@ class ImageSequenceReader : public Reader {
     }
     if (pictures_of(input).empty()) {
       const std::string why = why_no_pictures(input);
-      return {0, "no pictures in this folder" +
-                     (why.empty() ? " (folders inside it are not searched)" : ": " + why)};
+      return {0,
+              "no pictures in this folder" + (why.empty() ? pictures_inside(input) : ": " + why)};
     }
     return {10, ""};
   }

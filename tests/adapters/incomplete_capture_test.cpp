@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Gigaray authors
 // Captures of which a part is missing, damaged, without a pose, or at the place of another one.
-#include <limits>
 #include <functional>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "adapters/adapters_test.h"
@@ -138,12 +138,11 @@ TEST_F(IncompleteCapture, APointThatIsNotFiniteIsLeftOut) {
 TEST_F(IncompleteCapture, AFrameThatCannotBeReadIsLeftOut) {
   save_pictures("images/");
   using Change = std::function<void(json&)>;
-  for (const Change& change :
-       {Change([](json& frame) { frame["camera_model"] = "PANORAMA"; }),
-        Change([](json& frame) { frame["transform_matrix"] = "x"; }),
-        Change([](json& frame) { frame.erase("transform_matrix"); }),
-        Change([](json& frame) { frame["transform_matrix"][0][0] = 3; }),
-        Change([](json& frame) { frame["fl_x"] = -1; })}) {
+  for (const Change& change : {Change([](json& frame) { frame["camera_model"] = "PANORAMA"; }),
+                               Change([](json& frame) { frame["transform_matrix"] = "x"; }),
+                               Change([](json& frame) { frame.erase("transform_matrix"); }),
+                               Change([](json& frame) { frame["transform_matrix"][0][0] = 3; }),
+                               Change([](json& frame) { frame["fl_x"] = -1; })}) {
     json root = transforms();
     change(root["frames"][1]);
     write("transforms.json", root.dump());

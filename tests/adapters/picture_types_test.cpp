@@ -178,6 +178,8 @@ TEST_F(PictureTypes, WhatIsNoPictureStaysNone) {
   write("a_4.csv", "\x89PNG");
   write("a_5", "PK\3\4");
   expect_bad_input("no pictures in this folder (folders inside it are not searched)");
+  save("rgb/a.png");
+  expect_bad_input("one inside it holds pictures, name that: " + (folder / "rgb").string());
 }
 
 TEST_F(PictureTypes, TiffOfPackedBitsIsNoDamage) {
