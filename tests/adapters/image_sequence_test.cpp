@@ -200,7 +200,7 @@ TEST_F(ImageSequence, DatesWithTimesAreNoGrid) {
   save("20260101_120001.png");
   save("20260101_120013.png");
   save("20260102_120020.png");
-  expect_bad_input("more than one number");
+  EXPECT_EQ(open().kind, LightFieldKind::k3D);
 }
 
 TEST_F(ImageSequence, AVerticalRailIsStated) {

@@ -39,7 +39,8 @@ class IncompleteSeries : public AdaptersTest {
 };
 
 TEST_F(IncompleteSeries, ADamagedPictureOfARowIsLeftOutAndTheOthersStay) {
-  for (const std::string bytes : {std::string(), std::string("no picture"), std::string("half")}) {
+  for (const char* stated : {"", "no picture", "half"}) {
+    const std::string bytes = stated;
     SCOPED_TRACE(bytes);
     save_row(5);
     if (bytes == "half")

@@ -80,7 +80,7 @@ TEST_F(Masks, AJpegsBlackIsNotExact) {
   const Mask seen = read_mask(folder / "a.jpg", 160, 120, Orientation::kIgnored, 1e9);
   const int edge = int(std::ceil(8.0 * 160 / kWidth - 0.5));
   for (int u = 0; u < 160; ++u)
-    if (std::abs(u - edge) > 2) ASSERT_EQ(seen(u, 60) != 0, u >= edge) << u;
+    EXPECT_TRUE(std::abs(u - edge) <= 2 || (seen(u, 60) != 0) == (u >= edge)) << u;
   // Grey of a type that keeps values is not black: COLMAP's rule.
   save("a.png", noisy);
   EXPECT_EQ(read_mask(folder / "a.png", 160, 120, Orientation::kIgnored, 1e9)(3, 3), 1);
