@@ -78,8 +78,10 @@ int bits_of(const std::vector<fs::path>& files, const std::vector<std::size_t>& 
     if (most > 0x3fff && of == 16) return 0;
   }
   if (most == 0) return 0;
+  // What is rounded after it was scaled may be a little above.
+  constexpr std::uint32_t kAbove = 128;  // a part of full scale
   for (const int bits : {8, 10, 12, 14})
-    if (most >> bits == 0) return bits;
+    if (most <= ((1u << bits) - 1) + (1u << bits) / kAbove) return bits;
   const int bits = std::bit_width(most);
   return bits < of && of > 16 ? bits : 0;
 }

@@ -72,6 +72,14 @@ TEST_F(PictureBits, OneScaleForAllViews) {
   EXPECT_EQ(read_view(light_field, 0)(5, 6, 0), dark.at<cv::Vec3w>(6, 5)[2] << 4);
 }
 
+TEST_F(PictureBits, RoundingAboveFullScaleIsNoOtherScale) {
+  cv::Mat scaled = of_bits(12);
+  scaled.at<cv::Vec3w>(2, 2) = cv::Vec3w(4096, 4100, 4095);  // 65535 / 16 and a little more
+  const LightField light_field = open_views({scaled, of_bits(12)}, ".png");
+  EXPECT_NE(note_of_bits(light_field).find("4095 is full scale"), std::string::npos);
+  EXPECT_EQ(read_view(light_field, 0)(2, 2, 1), 65535);
+}
+
 TEST_F(PictureBits, BrighterThanWhatWasLookedAtIsClippedAndNeverWraps) {
   StoredPicture stored;
   stored.whole = Image<std::uint16_t>(2, 1, 3, 1023);
