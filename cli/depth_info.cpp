@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "cameras.h"
 #include "gigaray/adapters/depth_folder.h"
 #include "gigaray/adapters/depth_result.h"
 #include "gigaray/adapters/input_file.h"
@@ -77,9 +78,7 @@ std::vector<std::string> commands() {
 
 std::string unit_of(const LightField& light_field) {
   if (!light_field.rig.unit.empty()) return light_field.rig.unit;
-  return light_field.kind == LightFieldKind::kUnstructured
-             ? "units of the cameras, which nobody stated"
-             : "scene units";
+  return light_field.kind == LightFieldKind::kUnstructured ? "units of the cameras" : "scene units";
 }
 
 double number_at(const ordered_json& root, const char* key) {
@@ -160,6 +159,7 @@ ordered_json depth_json(const fs::path& folder) {
   root["device"] = about.value("device", ordered_json("unknown"));
   root["seconds"] = number_at(about, "seconds_total");
   root["peak_memory_mib"] = number_at(about, "peak_memory_mib");
+  if (const std::string note = note_on_scale(light_field); !note.empty()) root["note"] = note;
   root["next"] = next_lines(folder, light_field, top, disparity);
   return root;
 }

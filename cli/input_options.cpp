@@ -60,7 +60,9 @@ void parse_convention(const std::string& text, OpenOptions& open) {
     throw CLI::ValidationError("--convention",
                                "'" + text +
                                    "' is not opencv, opengl, unity, llff, ros, unreal or three of "
-                                   "R L U D F B as in RUB, with or without -w2c");
+                                   "R L U D F B as in RUB, with or without -w2c" +
+                                   did_you_mean(text, {"opencv", "opengl", "unity", "llff", "ros",
+                                                       "unreal", "opencv-w2c", "opengl-w2c"}));
 }
 
 }  // namespace

@@ -4,10 +4,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <cstring>
 #include <optional>
 #include <sstream>
+#include <vector>
 
 #include "gigaray/adapters/input_file.h"
 #include "gigaray/adapters/path_text.h"
@@ -94,6 +96,13 @@ ordered_json glb_root(const fs::path& file) {
   return ordered_json::parse(text, nullptr, false);
 }
 
+/// Three numbers, or whatever somebody else wrote there.
+bool is_place(const ordered_json& object, const char* key) {
+  const auto found = object.is_object() ? object.find(key) : object.end();
+  return found != object.end() && found->is_array() && found->size() == 3 &&
+         std::ranges::all_of(*found, [](const ordered_json& number) { return number.is_number(); });
+}
+
 ordered_json glb_json(const fs::path& file) {
   const ordered_json gltf = glb_root(file);
   if (!gltf.is_object()) throw bad(file, "is damaged or no binary glTF");
@@ -109,13 +118,13 @@ ordered_json glb_json(const fs::path& file) {
         if (part.contains("indices"))
           indices +=
               accessors.at(part["indices"].get<std::size_t>()).at("count").get<std::uint64_t>();
-        if (positions.contains("min") && positions.contains("max"))
+        if (is_place(positions, "min") && is_place(positions, "max"))
           root["box"] = {positions["min"], positions["max"]};
       }
     root["vertices"] = vertices;
     root["faces"] = indices / 3;
     for (const ordered_json& node : gltf.value("nodes", ordered_json::array()))
-      if (node.contains("extras") && node["extras"].contains("origin"))
+      if (node.contains("extras") && is_place(node["extras"], "origin"))
         root["origin"] = node["extras"]["origin"];
   } catch (const ordered_json::exception& problem) {
     throw bad(file, std::string("is damaged (") + problem.what() + ")");
@@ -156,9 +165,10 @@ void print_model(const ordered_json& model) {
     fmt::print("{:<11}{} triangles between {} vertices\n", "faces", count("faces"),
                count("vertices"));
   const auto print_place = [&](const char* label, const ordered_json& place) {
-    fmt::print("{:<11}", label);
-    for (const ordered_json& number : place) fmt::print("{:.9g} ", number.get<double>());
-    fmt::print("\n");
+    std::vector<std::string> numbers;
+    for (const ordered_json& number : place)
+      numbers.push_back(fmt::format("{:.9g}", number.get<double>()));
+    fmt::print("{:<11}{}\n", label, fmt::join(numbers, " "));
   };
   if (model.contains("box")) {
     print_place("from", model.at("box").at(0));

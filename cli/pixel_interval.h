@@ -18,7 +18,8 @@ class PixelInterval {
   /// at: U V. tolerance: px per view step to both sides, of photographs a share of the inverse
   /// depth; empty: as far as the surface goes, see interval_around(). disparity: the map of the
   /// view. Throws Error(kInvalidArgument) for a pixel outside of the picture or without an
-  /// estimate, and for a tolerance that reaches infinity.
+  /// estimate (in `disparity`, which may lack what is unsure), and for a tolerance that reaches
+  /// infinity.
   PixelInterval(const DepthResult& depth, const FloatMap& disparity, const std::vector<int>& at,
                 std::optional<double> tolerance);
 

@@ -107,6 +107,7 @@ void print_depth(const ordered_json& result) {
   line("device", text("device"));
   line("time", fmt::format("{:.1f} s, {:.0f} MiB of memory", result.at("seconds").get<double>(),
                            result.at("peak_memory_mib").get<double>()));
+  if (result.contains("note")) line("note", text("note"));
 }
 
 void print_masks(const ordered_json& result) {

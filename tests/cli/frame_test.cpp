@@ -107,6 +107,7 @@ TEST_F(Frame, TyposAreAnsweredWithWhatWasMeant) {
   expect_failure("mesh out -o x.ply --method possion", 2, "did you mean poisson?");
   expect_failure("synth gardn -o x", 2, "'gardn'", "did you mean garden?");
   expect_failure("synth planes -o x --path lnie", 2, "--path", "did you mean line?");
+  expect_failure("info made --convention opengel", 2, "--convention", "did you mean opengl?");
   expect_failure("info made --direction rigth", 2, "--direction", "did you mean right?");
   save_pictures("row");
   expect_failure("depth row -o x --direction right --views v_1 --disparity 0 1", 2, "v_1", "v1");

@@ -91,7 +91,7 @@ TEST_F(ResultInfo, PhotographsHaveInverseDepthInTheirOwnUnit) {
             0);
   ASSERT_EQ(run("depth walk -o walked").exit_code, 0);
   const Result result = run("info walked");
-  expect_words(result.out, {"inverse depth", "units of the cameras"});
+  expect_words(result.out, {"inverse depth", "units of the cameras", "not in metres"});
   const json about = json::parse(run("info walked --json").out);
   EXPECT_NEAR(about.at("disparity").at("median").get<double>() *
                   about.at("depth").at("median").get<double>(),
