@@ -48,7 +48,7 @@ Channels channels_of(const ExrHeader& header, const fs::path& path) {
     return std::ranges::find(names, name) != names.end();
   };
   // Of many passes of a renderer the finished picture.
-  std::ranges::stable_partition(layers, [](const std::string& layer) {
+  std::stable_partition(layers.begin(), layers.end(), [](const std::string& layer) {
     const std::string name = lower(layer);
     return name.empty() || name.ends_with("combined.") || name.ends_with("beauty.") ||
            name.ends_with("rgba.");
