@@ -297,10 +297,13 @@ __kernel void density_score_packed(
       const vint x = u + shift[k].whole_u, y = v + shift[k].whole_v;
       const vint last_column = p.width - 1 - (shift[k].fraction_u > 0.0f);
       const vint last_row = p.height - 1 - (shift[k].fraction_v > 0.0f);
-      const vfloat inside = VSELECT((vfloat)(0.0f), (vfloat)(1.0f),
-                                    x >= 0 && x <= last_column && y >= 0 && y <= last_row);
+      vfloat inside = VSELECT((vfloat)(0.0f), (vfloat)(1.0f),
+                              x >= 0 && x <= last_column && y >= 0 && y <= last_row);
       const vfloat colour[3] = {staged[SLICE(4 * k)], staged[SLICE(4 * k + 1)],
                                 staged[SLICE(4 * k + 2)]};
+#if MASKED
+      inside = VSELECT((vfloat)(0.0f), inside, fabs(colour[0] - 0.5f) <= MASKED_BEYOND);
+#endif
       const Sample sample = relative_sample(colour, inside, own_colour, inverse_h);
       count += inside;
       stage(staged, k, sample);

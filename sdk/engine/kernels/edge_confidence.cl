@@ -15,9 +15,11 @@
 #define BOTH_AXES 0  // 1 for light fields that extend along t too
 #endif
 
+// 0 to a masked neighbour: the rim of a mask is no edge of the scene.
 static inline vfloat colour_difference(__global const float* a, __global const float* b, int stride) {
   const vfloat sum = colour_distance2(a, b, stride);
-  return SQUARED ? sum : sqrt(sum);
+  const vint at_rim = fabs(VLOAD(b) - 0.5f) > MASKED_BEYOND && fabs(VLOAD(a) - 0.5f) <= MASKED_BEYOND;
+  return VSELECT(SQUARED ? sum : sqrt(sum), (vfloat)(0.0f), at_rim);
 }
 
 __kernel void edge_confidence(__global const float* band, const BandParams p, const StripParams strip,

@@ -2,11 +2,17 @@
 // Copyright (c) 2026 The Gigaray authors
 #include "edge_confidence.h"
 
+#include <cmath>
+
 namespace gigaray::reference {
 
 void edge_confidence(const Band& band, int ref, RowRange rows, const EdgeOptions& options,
                      bool both_axes, StripMap<float>& confidence) {
+  const auto is_masked = [](const Sample& pixel) {
+    return std::abs(pixel[0] - 0.5F) > kMaskedBeyond;
+  };
   const auto difference = [&](const Sample& a, const Sample& b) {
+    if (is_masked(b) && !is_masked(a)) return 0.0F;  // the rim of a mask is no edge of the scene
     const float distance = colour_distance(a, b);
     return options.squared ? distance * distance : distance;
   };
