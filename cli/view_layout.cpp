@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "gigaray/adapters/photographs.h"
+#include "gigaray/camera_order.h"
 #include "gigaray/view_layout.h"
 
 namespace gigaray::cli {
@@ -84,6 +85,10 @@ std::string option_of(const ViewLayout& layout) {
 }  // namespace
 
 bool settle_layout(const InputOptions& input, LightField& light_field, const RunControl& control) {
+  if (!input.open.positions.empty() || light_field.format == "Stanford archive") {
+    doubt_positions(light_field, control);
+    return false;
+  }
   const auto numbering = numbering_of(input, light_field);
   // Of what is stated, rows and columns may be swapped.
   if (!numbering || (numbering->is_stated && numbering->layout.rows == numbering->layout.columns))

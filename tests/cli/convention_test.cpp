@@ -194,6 +194,23 @@ TEST_F(Layout, AStatedGridThatAgreesWorseThanAnotherIsTold) {
   EXPECT_NE(line.err.find("--grid 5x7 would state it"), std::string::npos) << line.err;
 }
 
+TEST_F(Layout, PositionsThatPointUpwardsAreTold) {
+  number("7x5", "lf_%03d.png");
+  const auto write_positions = [&](int down) {
+    std::ofstream file(folder / "places.txt");
+    for (int i = 0; i < 35; ++i) file << 10 * (i % 7) << " " << down * 10 * (i / 7) << "\n";
+  };
+  const std::string command = "depth p -o out --views centre --positions places.txt";
+  write_positions(1);
+  const Result right = run(command);
+  ASSERT_EQ(right.exit_code, 0) << right.err;
+  EXPECT_EQ(right.err.find("in doubt"), std::string::npos) << right.err;
+  EXPECT_LT(share_wrong(), 0.15);
+  write_positions(-1);
+  const Result upwards = run(command);
+  EXPECT_NE(upwards.err.find("with the sign of down changed"), std::string::npos) << upwards.err;
+}
+
 TEST_F(Layout, ASceneOfHciWithoutParametersMayHaveAnyGrid) {
   number("7x5", "input_Cam%03d.png");
   const Result result = run("depth p -o out --views centre");

@@ -53,6 +53,24 @@ TEST(CheckDirection, ARightAssumptionStaysSilently) {
   EXPECT_EQ(messages.all, "");
 }
 
+TEST(DoubtPositions, StatedOnesThatAgreeBetterTurnedAreTold) {
+  LightField light_field = two_planes(grid_of_views(5, 3), 0.4, 1.7).light_field;
+  Messages right;
+  doubt_positions(light_field, right.control);
+  EXPECT_EQ(right.all, "");
+  LightField upwards = light_field, exchanged = light_field;
+  for (View& view : upwards.views) view.t *= -1;
+  for (View& view : exchanged.views) std::swap(view.s, view.t);
+  Messages of_upwards, of_exchanged;
+  doubt_positions(upwards, of_upwards.control);
+  EXPECT_NE(of_upwards.all.find("with the sign of down changed"), std::string::npos)
+      << of_upwards.all;
+  doubt_positions(exchanged, of_exchanged.control);
+  EXPECT_NE(of_exchanged.all.find("with right and down exchanged"), std::string::npos)
+      << of_exchanged.all;
+  EXPECT_EQ(upwards.views[0].t, -light_field.views[0].t);
+}
+
 TEST(CheckDirection, AKnownSignIsNotTouchedAndNothingIsRead) {
   LightField light_field = two_planes(row_of_views(7), -1.7, -0.4).light_field;
   const std::vector<View> before = light_field.views;

@@ -114,6 +114,21 @@ std::string percent(double share) {
 
 }  // namespace
 
+void doubt_positions(const LightField& light_field, const RunControl& control) {
+  if (light_field.kind != LightFieldKind::k4D) return;
+  constexpr double kClearLead = 0.05;
+  static constexpr std::array<const char*, 4> kTurns{
+      "as they are", "with the sign of down changed", "with right and down exchanged",
+      "with right and down exchanged and the sign of one changed"};
+  std::array<double, 4> agreement{};
+  for (std::size_t i = 0; i < kOrders.size(); ++i)
+    agreement[i] = measure_agreement(central(turned(light_field, kOrders[i], 1)), control);
+  const auto best = std::size_t(std::ranges::max_element(agreement) - agreement.begin());
+  if (agreement[best] < agreement[0] + kClearLead) return;
+  control.message("the stated positions are in doubt: views agree to " + percent(agreement[0]) +
+                  " as they are, to " + percent(agreement[best]) + " " + kTurns[best]);
+}
+
 std::optional<DisparityRange> check_direction(LightField& light_field, const RunControl& control) {
   if (!light_field.sign_is_assumed) return std::nullopt;
   const std::vector<Trial> trials = try_orders(light_field, control);

@@ -200,13 +200,17 @@ double mean_score(const std::vector<PixelMatch>& matches) {
 
 }  // namespace
 
+LightField central(const LightField& light_field) {
+  return subset(light_field, central_views(light_field, kMostViews));
+}
+
 double measure_agreement(const LightField& light_field, const RunControl& control) {
   return mean_score(search_widely(light_field, control, kMostPixels / 5).matches);
 }
 
 RangeEstimate estimate_disparity_range(const LightField& light_field, const RunControl& control) {
-  const auto [matches, search, level, radius] = search_widely(
-      subset(light_field, central_views(light_field, kMostViews)), control, kMostPixels);
+  const auto [matches, search, level, radius] =
+      search_widely(central(light_field), control, kMostPixels);
   RangeEstimate estimate;
   estimate.pixel_size = 1 << level;
   estimate.radius = radius;

@@ -23,4 +23,9 @@ namespace gigaray {
 /// any. Throws Error(kBadInput) when the pictures match under no order.
 std::optional<DisparityRange> check_direction(LightField& light_field, const RunControl& control);
 
+/// Do the views agree clearly better when positions in a plane that the input states are turned,
+/// that is, when its two numbers change places or one of them its sign? Says so through
+/// control.message; the positions stay. Both signs at once are not seen.
+void doubt_positions(const LightField& light_field, const RunControl& control);
+
 }  // namespace gigaray
