@@ -21,7 +21,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         GIGARAY_CHECK(!view.picture.empty() && view.pose.rotation.allFinite());
     } else if (input.choice == 3) {
       const auto view = gigaray::parse_mvsnet_camera(input.bytes, "fuzz");
-      GIGARAY_CHECK(view.inverse_depth && view.translation.allFinite());
+      GIGARAY_CHECK(view.inverse_depth && view.pose.translation.allFinite());
     } else if (input.choice == 4) {
       const auto pair = gigaray::parse_stereo_calibration(input.bytes, "fuzz");
       GIGARAY_CHECK(pair.focal_px > 0 && pair.baseline > 0);
@@ -33,7 +33,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       GIGARAY_CHECK(positions.size() == count);
     } else {
       const auto view = gigaray::parse_strecha_camera(input.bytes, "fuzz");
-      GIGARAY_CHECK(view.lens.width > 0 && view.translation.allFinite());
+      GIGARAY_CHECK(view.lens.width > 0 && view.pose.translation.allFinite());
     }
   });
   return 0;
