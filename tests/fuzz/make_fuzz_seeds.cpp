@@ -81,7 +81,8 @@ void add_pictures(const fs::path& folder) {
       void* bytes = nullptr;
       std::size_t size = 0;
       colour.write_to_buffer(format, &bytes, &size);
-      add(folder, "picture_" + std::to_string(number++), char(number % 2),
+      ++number;
+      add(folder, "picture_" + std::to_string(number), char(number % 2),
           std::string(static_cast<char*>(bytes), size));
       g_free(bytes);
     } catch (const vips::VError&) {
