@@ -107,12 +107,13 @@ LightField open_light_field(const fs::path& input, const OpenOptions& options) {
   for (std::vector<View>* views : {&light_field.views, &light_field.left_out})
     for (View& view : *views) view.name = view_name_of(view.name);
   const bool is_posed = light_field.kind == LightFieldKind::kUnstructured;
-  if (!options.images.empty() && !is_posed)
-    throw Error(
-        ErrorCode::kInvalidArgument,
-        "--images: goes with photographs whose cameras are known, not with a light field of "
-        "the format " +
-            light_field.format);
+  for (const auto& [option, is_stated] :
+       {std::pair("--images", !options.images.empty()),
+        std::pair("--convention", options.convention.has_value())})
+    if (is_stated && !is_posed)
+      throw Error(ErrorCode::kInvalidArgument,
+                  std::string(option) + ": goes with photographs whose cameras are known, not " +
+                      "with a light field of the format " + light_field.format);
   if (!options.masks.empty() && !is_posed && !light_field.pixels->has_mask())
     throw Error(ErrorCode::kInvalidArgument,
                 "--masks: goes with pictures in files, not with a light field of the format " +

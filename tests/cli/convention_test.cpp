@@ -110,6 +110,8 @@ TEST_F(Convention, AStatedOneThatDoesNotFitIsAMessage) {
   EXPECT_NE(result.err.find("don't fit the pictures"), std::string::npos) << result.err;
   EXPECT_NE(result.err.find("--convention opengl"), std::string::npos) << result.err;
   expect_failure(std::string(kDepth) + "--convention blender", 2, "--convention", "opengl");
+  ASSERT_EQ(run("synth planes -o row --views 3 --width 32 --height 32").exit_code, 0);
+  expect_failure("info row --convention opencv", 2, "--convention", "cameras are known");
 }
 
 TEST_F(Convention, PosesOfOtherPicturesFitInNone) {
