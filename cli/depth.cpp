@@ -114,6 +114,21 @@ ordered_json light_field_json(const LightField& light_field) {
   return result;
 }
 
+/// What was said of the input, for who opens it again.
+ordered_json opened_with_json(const OpenOptions& options) {
+  ordered_json root = ordered_json::object();
+  for (const auto& [key, path] : {std::pair("positions", &options.positions),
+                                  {"images", &options.images},
+                                  {"masks", &options.masks}})
+    if (!path->empty()) root[key] = path_text(std::filesystem::absolute(*path));
+  if (options.grid.rows > 0)
+    root["grid"] = {options.grid.rows, options.grid.columns, options.grid.snake};
+  if (options.lenslet.columns > 0)
+    root["lenslet"] = {options.lenslet.columns, options.lenslet.rows};
+  if (options.convention) root["convention"] = name_of(*options.convention);
+  return root;
+}
+
 /// Unit of depth.pfm; null when there is none.
 ordered_json depth_unit(const LightField& light_field) {
   if (!has_metric_depth(light_field)) return nullptr;
@@ -207,6 +222,7 @@ void run(const Settings& settings, const RunControl& control) {
                     {"version", 1},
                     {"program", "gigaray " GIGARAY_VERSION},
                     {"input", path_text(std::filesystem::absolute(settings.run.input.input))},
+                    {"opened_with", opened_with_json(settings.run.input.open)},
                     {"light_field", light_field_json(light_field)},
                     {"options", options_json(result)},
                     {"unit", disparity_unit(light_field)},

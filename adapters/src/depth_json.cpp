@@ -41,6 +41,22 @@ LightField parse(const json& root) {
   return light_field;
 }
 
+OpenOptions options_of(const json& root) {
+  OpenOptions options;
+  const auto found = root.find("opened_with");
+  if (found == root.end()) return options;
+  const auto path = [&](const char* key) { return path_of_text(found->value(key, std::string())); };
+  options.positions = path("positions");
+  options.images = path("images");
+  options.masks = path("masks");
+  if (const auto grid = found->find("grid"); grid != found->end())
+    options.grid = {grid->at(0), grid->at(1), grid->at(2)};
+  if (const auto views = found->find("lenslet"); views != found->end())
+    options.lenslet = {views->at(0), views->at(1)};
+  options.convention = parse_pose_convention(found->value("convention", std::string()));
+  return options;
+}
+
 int top_view_of(const json& root, const LightField& light_field) {
   const std::string name = root.value("top_level_view", "");
   const auto found = std::ranges::find(light_field.views, name, &View::name);
@@ -62,6 +78,7 @@ DescribedDepth parse_depth_json(std::string_view text, const std::string& where)
   try {
     described.light_field = parse(root);
     described.input = path_of_text(root.at("input").get<std::string>());
+    described.opened_with = options_of(root);
     const json& range = root.at("options").at("disparity_range");
     described.searched = {range.at(0), range.at(1)};
     described.hypotheses = root.at("options").value("hypotheses", 0);

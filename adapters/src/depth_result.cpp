@@ -93,6 +93,7 @@ DepthResult::DepthResult(const fs::path& folder) : folder_(folder) {
   DescribedDepth described = parse_depth_json(read_json_text(path), path.string());
   light_field_ = std::move(described.light_field);
   input_ = std::move(described.input);
+  opened_with_ = std::move(described.opened_with);
   searched_ = described.searched;
   hypotheses_ = described.hypotheses;
   top_view_ = described.top_view;
@@ -120,7 +121,7 @@ LightField DepthResult::open_input(const fs::path& input) const {
   };
   std::error_code error;
   if (!fs::exists(place, error)) throw bad("no such file or folder");
-  LightField all = open_light_field(place);
+  LightField all = open_light_field(place, opened_with_);
   if (all.width > light_field_.width)
     all = shrunk(std::move(all), std::max(light_field_.width, light_field_.height));
   if (all.width != light_field_.width || all.height != light_field_.height)

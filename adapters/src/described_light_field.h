@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "gigaray/adapters/reader.h"
 #include "gigaray/light_field.h"
 
 namespace gigaray {
@@ -34,6 +35,7 @@ LightField described_light_field(const nlohmann::json& description);
 struct DescribedDepth {
   LightField light_field;  ///< of the views with depth, without pixels
   std::filesystem::path input;
+  OpenOptions opened_with;  ///< what the user said of the input
   DisparityRange searched;
   int hypotheses = 0;  ///< 0: not stated
   int top_view = 0;    ///< the one whose maps stand at top level

@@ -208,6 +208,17 @@ TEST_F(Layout, PositionsThatPointUpwardsAreTold) {
   ASSERT_EQ(right.exit_code, 0) << right.err;
   EXPECT_EQ(right.err.find("in doubt"), std::string::npos) << right.err;
   EXPECT_LT(share_wrong(), 0.15);
+  // What goes on from the result opens the input with what was said of it.
+  for (int i = 0; i < 35; ++i) {
+    char name[40];
+    std::snprintf(name, sizeof name, "lf_%03d.png", i);
+    std::filesystem::rename(folder / "p" / name, folder / "p" /
+                                                     (std::string(1, char('A' + i / 26)) +
+                                                      std::string(1, char('a' + i % 26)) + ".png"));
+  }
+  ASSERT_EQ(run(command).exit_code, 0);
+  const Result rendered = run("render out --pose 0.5,0 -o novel");
+  EXPECT_EQ(rendered.exit_code, 0) << rendered.err;
   write_positions(-1);
   const Result upwards = run(command);
   EXPECT_NE(upwards.err.find("with the sign of down changed"), std::string::npos) << upwards.err;

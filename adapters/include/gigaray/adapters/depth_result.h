@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <string>
 
+#include "gigaray/adapters/reader.h"
 #include "gigaray/image.h"
 #include "gigaray/light_field.h"
 
@@ -42,14 +43,15 @@ class DepthResult {
   /// they are those of `input`, or, when that is empty, of what depth was computed of.
   LightField with_pictures(const std::filesystem::path& input = {}) const;
 
-  /// `input`, or when that is empty what depth was computed of, in the size of the maps: all its
-  /// views, also those that were left out.
+  /// `input`, or when that is empty what depth was computed of, in the size of the maps and opened
+  /// with what was said of it then: all its views, also those that were left out.
   LightField open_input(const std::filesystem::path& input = {}) const;
 
  private:
   FloatMap map(int view, const char* name) const;
 
   std::filesystem::path folder_, input_;
+  OpenOptions opened_with_;
   LightField light_field_;
   DisparityRange searched_;
   int hypotheses_ = 0, top_view_ = 0;
