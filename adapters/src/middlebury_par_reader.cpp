@@ -20,20 +20,16 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kName = "Middlebury multi-view";
+constexpr const char* kEnding = "_par.txt";
 
 bool is_par_file(const fs::path& path) {
   std::error_code ignored;
-  return path.filename().string().ends_with("_par.txt") && fs::is_regular_file(path, ignored);
+  return lower(path.filename().string()).ends_with(kEnding) && fs::is_regular_file(path, ignored);
 }
 
 std::vector<fs::path> par_files_of(const fs::path& input) {
   if (is_par_file(input)) return {input};
-  std::error_code ignored;
-  std::vector<fs::path> found;
-  if (!fs::is_directory(input, ignored)) return found;
-  for (const fs::path& path : files_of(input))
-    if (is_par_file(path)) found.push_back(path);
-  return found;
+  return files_ending_in(kEnding, input);
 }
 
 class MiddleburyParReader : public Reader {

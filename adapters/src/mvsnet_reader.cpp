@@ -26,19 +26,10 @@ namespace fs = std::filesystem;
 constexpr const char* kName = "MVSNet cameras";
 constexpr const char* kEnding = "_cam.txt";
 
-std::vector<fs::path> camera_files_in(const fs::path& folder) {
-  std::error_code ignored;
-  std::vector<fs::path> files;
-  if (!fs::is_directory(folder, ignored)) return files;
-  for (const fs::path& path : files_of(folder))
-    if (lower(path.filename().string()).ends_with(kEnding)) files.push_back(path);
-  return files;
-}
-
 /// Of a scene's folder those in cams/, or of the folder itself.
 std::vector<fs::path> camera_files_of(const fs::path& input) {
   for (const char* below : {"cams", "cams_1", "Cameras", "cameras", "cam", "."})
-    if (auto files = camera_files_in(input / below); !files.empty()) return files;
+    if (auto files = files_ending_in(kEnding, input / below); !files.empty()) return files;
   return {};
 }
 

@@ -111,6 +111,16 @@ std::vector<fs::path> files_of(const fs::path& folder) {
   return files;
 }
 
+std::vector<fs::path> files_ending_in(const std::string& ending, const fs::path& folder) {
+  std::error_code ignored;
+  if (!fs::is_directory(folder, ignored)) return {};
+  std::vector<fs::path> files = files_of(folder);
+  std::erase_if(files, [&](const fs::path& path) {
+    return !lower(path.filename().string()).ends_with(ending);
+  });
+  return files;
+}
+
 std::vector<fs::path> pictures_of(const fs::path& folder) {
   std::error_code ignored;
   if (!fs::is_directory(folder, ignored)) return {};

@@ -52,6 +52,11 @@ bool is_picture(const std::filesystem::path& path);
 /// Regular, visible files of a folder, sorted by name. Throws Error(kBadInput) or Error(kIo).
 std::vector<std::filesystem::path> files_of(const std::filesystem::path& folder);
 
+/// Those whose name ends with `ending` (lower case), in any letter case. Nothing when it is no
+/// folder.
+std::vector<std::filesystem::path> files_ending_in(const std::string& ending,
+                                                   const std::filesystem::path& folder);
+
 /// Regular, visible files of a folder that are pictures by their names or by what is in them,
 /// sorted by name. Those that only hold floating point (OpenEXR, RGBE, PFM) are, where at most one
 /// is of another kind and there are more of them. Nothing when it is no folder.

@@ -26,8 +26,9 @@ fs::path points_beside(const fs::path& folder, const std::string& stated) {
   std::error_code ignored;
   if (!stated.empty() && fs::is_regular_file(folder / stated, ignored)) return folder / stated;
   if (!fs::is_directory(folder, ignored)) return {};
+  const std::vector<fs::path> files = files_of(folder);
   for (const char* name : kNames)
-    for (const fs::path& path : files_of(folder))
+    for (const fs::path& path : files)
       if (lower(path.filename().string()) == name) return path;
   return {};
 }

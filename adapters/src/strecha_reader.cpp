@@ -21,27 +21,18 @@ namespace fs = std::filesystem;
 constexpr const char* kName = "Strecha .camera files";
 constexpr const char* kExtension = ".camera";
 
-std::vector<fs::path> camera_files_of(const fs::path& input) {
-  std::error_code ignored;
-  std::vector<fs::path> files;
-  if (!fs::is_directory(input, ignored)) return files;
-  for (const fs::path& path : files_of(input))
-    if (path.extension() == kExtension) files.push_back(path);
-  return files;
-}
-
 class StrechaReader : public Reader {
  public:
   std::string name() const override { return kName; }
 
   ProbeResult probe(const fs::path& input) const override {
-    return {camera_files_of(input).empty() ? 0 : 75, ""};
+    return {files_ending_in(kExtension, input).empty() ? 0 : 75, ""};
   }
 
   LightField open(const fs::path& input, const OpenOptions& options) const override {
     refuse_direction(options, "the .camera files state");
     std::vector<StatedView> views;
-    for (const fs::path& file : camera_files_of(input)) {
+    for (const fs::path& file : files_ending_in(kExtension, input)) {
       views.push_back(view_of_file(parse_strecha_camera, file));
       views.back().picture = file.stem().string();
     }

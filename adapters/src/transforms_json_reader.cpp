@@ -248,9 +248,16 @@ std::string with_null_for_nan(std::string_view text) {
   return valid;
 }
 
+json json_of(std::string_view text) {
+  json root = json::parse(text, nullptr, false);
+  if (root.is_discarded()) root = json::parse(with_null_for_nan(text), nullptr, false);
+  return root;
+}
+
 /// The file of points that nerfstudio writes beside the cameras; empty: none.
 std::string points_stated_in(const std::string& text) {
-  const json root = json::parse(text, nullptr, false);
+  if (text.find("\"ply_file_path\"") == std::string::npos) return {};
+  const json root = json_of(text);
   if (!root.is_object()) return {};
   const auto found = root.find("ply_file_path");
   return found != root.end() && found->is_string() ? found->get<std::string>() : std::string();
@@ -289,8 +296,7 @@ class TransformsJsonReader : public Reader {
 }  // namespace
 
 std::vector<StatedView> parse_transforms_json(std::string_view text, const std::string& where) {
-  json root = json::parse(text, nullptr, false);
-  if (root.is_discarded()) root = json::parse(with_null_for_nan(text), nullptr, false);
+  const json root = json_of(text);
   if (!root.is_object())
     throw Error(ErrorCode::kBadInput, where + ": is damaged or no JSON object");
   const auto frames = root.find("frames");

@@ -287,10 +287,9 @@ static inline __attribute__((always_inline)) void sample_block(__global const fl
 // The last pixel of a row is there twice, for the tap to the right.
 
 #define TAP_WIDTH (CHANNELS > 3 ? 8 : 4)
-// Red of a sample that a masked pixel has part in, see kMaskedColour.
-#define MASKED_SAMPLE -1.0f
-// The taps of cubic interpolation may also take part away from it: a red farther than this from the
-// middle of all colours is that of no picture.
+// A sample with a red farther than this from the middle of all colours is that of no picture: a
+// masked pixel (kMaskedColour) has part in it, which the taps of cubic interpolation may also take
+// away.
 #define MASKED_BEYOND 1.5f
 
 // Where another view sees LANES pixels, px, and how that place changes with the pixel.
@@ -397,7 +396,7 @@ static inline __attribute__((always_inline)) int sample_lanes(__global const flo
   sample[3] = planes[0];
   sample[4] = planes[1];
 #endif
-  *inside = VSELECT((vfloat)(0.0f), in_picture, sample[0] >= MASKED_SAMPLE);
+  *inside = VSELECT((vfloat)(0.0f), in_picture, fabs(sample[0] - 0.5f) <= MASKED_BEYOND);
   return 1;
 }
 
