@@ -381,24 +381,26 @@ TYPED_TEST(Parity, MeanRadiance) {
 TYPED_TEST(Parity, Propagation) {
   for (const ParityCase& size : parity_cases()) {
     DepthOptions options = paper_options();
-    options.propagation.finished_lead = 1.25f;
     ParityBench<TypeParam> bench(size, options);
     const RowRange reached = bench.rows_of_all(bench.rows());
     std::vector<PackedEstimate> expected(std::size_t(reached.size()) * bench.active_count *
                                          bench.width());
     // Some estimates are there already.
-    for (PackedEstimate& estimate : expected)
+    std::vector<float> bars;
+    for (PackedEstimate& estimate : expected) {
       if (bench.uniform() < 0.2) estimate = pack_estimate(float(bench.uniform() - 0.5), 0.5f);
+      bars.push_back(bench.uniform() < 0.5 ? bar_of(estimate, 1.25f) : 0);
+    }
     auto actual = expected;
     for (const int ref : {4, 0}) {
       const auto disparity = bench.random_disparity(bench.rows(), 0.9);
       const auto confidence = bench.random_values(bench.rows());
       StripMap<Radiance> radiance(bench.width(), bench.rows());
       bench.reference->mean_radiance(ref, bench.rows(), disparity, radiance);
-      bench.reference->propagation(ref, bench.rows(), disparity, confidence, radiance, reached, 2,
-                                   expected.data());
-      bench.opencl->propagation(ref, bench.rows(), disparity, confidence, radiance, reached, 2,
-                                actual.data());
+      bench.reference->propagation(ref, bench.rows(), disparity, confidence, radiance, reached,
+                                   ref == 4 ? nullptr : bars.data(), expected.data());
+      bench.opencl->propagation(ref, bench.rows(), disparity, confidence, radiance, reached,
+                                ref == 4 ? nullptr : bars.data(), actual.data());
     }
     Difference hypothesis, confidence;
     // Rounding of a quotient decides about a nearest pixel, and which of two estimates is nearer.
@@ -415,6 +417,50 @@ TYPED_TEST(Parity, Propagation) {
     }
     this->expect_within("propagation, hypothesis", hypothesis, same);
     this->expect_within("propagation, confidence", confidence, 0);
+  }
+}
+
+TYPED_TEST(Parity, PropagationHasNoOrder) {
+  // The estimates of three views, each cut into rows, arrive in random orders.
+  const ParityCase size{93, 31, {9, 16}};
+  ParityBench<TypeParam> bench(size, paper_options());
+  const RowRange reached = bench.rows_of_all(bench.rows());
+  std::vector<PackedEstimate> before(std::size_t(reached.size()) * bench.active_count *
+                                     bench.width());
+  std::vector<float> bars;
+  for (PackedEstimate& estimate : before) {
+    if (bench.uniform() < 0.5) estimate = pack_estimate(float(bench.uniform() - 0.5), 0.3f);
+    bars.push_back(bench.uniform() < 0.5 ? bar_of(estimate, 2) : 0);
+  }
+  struct Arrival {
+    int ref;
+    RowRange rows;
+  };
+  std::vector<Arrival> arrivals;
+  std::map<int, StripMap<float>> disparity, confidence;
+  std::map<int, StripMap<Radiance>> radiance;
+  for (const int ref : {4, 0, 2}) {
+    disparity[ref] = bench.random_disparity(bench.rows(), 0.9);
+    confidence[ref] = bench.random_values(bench.rows());
+    radiance[ref] = StripMap<Radiance>(bench.width(), bench.rows());
+    bench.reference->mean_radiance(ref, bench.rows(), disparity[ref], radiance[ref]);
+    for (int v = bench.rows().begin; v < bench.rows().end; ++v)
+      arrivals.push_back({ref, {v, v + 1}});
+  }
+  for (Backend* backend : {bench.reference.get(), bench.opencl.get()}) {
+    std::vector<PackedEstimate> expected;
+    for (unsigned seed = 0; seed < 8; ++seed) {
+      std::shuffle(arrivals.begin(), arrivals.end(), std::mt19937(seed));
+      std::vector<PackedEstimate> merged = before;
+      for (const auto& [ref, rows] : arrivals)
+        backend->propagation(ref, rows, disparity[ref], confidence[ref], radiance[ref], reached,
+                             bars.data(), merged.data());
+      if (seed == 0)
+        expected = merged;
+      else
+        EXPECT_EQ(merged, expected) << seed;
+    }
+    EXPECT_NE(expected, before);
   }
 }
 

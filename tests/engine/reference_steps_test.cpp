@@ -345,6 +345,7 @@ struct Rays {
   StripMap<float> disparity, confidence;
   StripMap<Radiance> radiance;
   std::vector<PackedEstimate> estimates;
+  std::vector<float> bars;
 
   Rays(int width, std::vector<View> views)
       : width(width),
@@ -355,13 +356,17 @@ struct Rays {
     std::fill_n(disparity.row(0), width, kNoEstimate);
     estimates.resize(this->views.size() * width);
   }
-  void propagate(const Band& band, int finished = 0) {
+  void propagate(const Band& band) {
     std::vector<int> active(views.size());
     for (int i = 0; i < int(active.size()); ++i) active[i] = i;
-    PropagationOptions options;
-    options.finished_lead = 2;
-    reference::propagation(band, EpiSampler(views), 0, {0, 1}, active, options, disparity,
-                           confidence, radiance, {0, 1}, finished, estimates.data());
+    reference::propagation(band, EpiSampler(views), 0, {0, 1}, active, PropagationOptions{},
+                           disparity, confidence, radiance, {0, 1},
+                           bars.empty() ? nullptr : bars.data(), estimates.data());
+  }
+  /// All views are finished.
+  void finish() {
+    bars.clear();
+    for (const PackedEstimate own : estimates) bars.push_back(bar_of(own, 2));
   }
   PackedEstimate at(int view, int u) const { return estimates[std::size_t(view) * width + u]; }
 };
@@ -392,7 +397,7 @@ TEST(ReferencePropagation, TheNearerStaysThenTheMoreConfident) {
   EXPECT_EQ(confidence_of(rays.at(1, 5)), 0.4f);
 }
 
-TEST(ReferencePropagation, AFinishedViewGivesUpForWhatIsNearerAndLeads) {
+TEST(ReferencePropagation, AFinishedViewGivesUpForWhatIsNearerAndLeadsOverItsOwn) {
   const Band flat = band_of(21, 1, 2, 3, [](int, int, int, int) { return 0.5; });
   Rays rays(21, {{"a", 0, 0}, {"b", 1, 0}});
   std::fill_n(rays.radiance.row(0), 21, Radiance{0.5f, 0.5f, 0.5f});
@@ -400,13 +405,21 @@ TEST(ReferencePropagation, AFinishedViewGivesUpForWhatIsNearerAndLeads) {
     std::fill_n(rays.disparity.row(0), 21, kNoEstimate);
     rays.disparity.row(0)[5 + int(disparity)] = disparity;
     rays.confidence.row(0)[5 + int(disparity)] = confidence;
-    rays.propagate(flat, 2);
+    rays.propagate(flat);
     return hypothesis_of(rays.at(1, 5));
   };
+  rays.finish();
   EXPECT_EQ(arrive(1, 0.2f), 1);  // nothing was there
+  rays.finish();
   EXPECT_EQ(arrive(3, 0.4f), 1);  // nearer, but not more than twice as confident
   EXPECT_EQ(arrive(0, 0.9f), 1);  // confident, but farther
-  EXPECT_EQ(arrive(3, 0.5f), 3);
+  EXPECT_EQ(arrive(3, 0.6f), 3);
+  // What leads over its own estimate may be nearer than what came before it, too.
+  EXPECT_EQ(arrive(4, 0.5f), 4);
+  // An own estimate without confidence stays before another one without.
+  rays.estimates.assign(rays.estimates.size(), pack_estimate(1, 0));
+  rays.finish();
+  EXPECT_EQ(arrive(3, 0), 1);
 }
 
 TEST(ReferencePropagation, AnOccluderIsSkippedAndTheWalkGoesOn) {

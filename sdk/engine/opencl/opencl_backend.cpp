@@ -340,8 +340,10 @@ class OpenClBackend : public Backend {
 
   void propagation(int ref, RowRange rows, const StripMap<float>& disparity,
                    const StripMap<float>& confidence, const StripMap<Radiance>& radiance,
-                   RowRange state_rows, int finished, PackedEstimate* estimates) override {
-    Kernel& kernel = plain_kernel("propagation", "propagation", "");
+                   RowRange state_rows, const float* bars, PackedEstimate* estimates) override {
+    const bool atomic = device_.info().has_int64_atomics;
+    Kernel& kernel = plain_kernel("propagation", "propagation",
+                                  define("ATOMIC", atomic) + define("GUARDED", bars != nullptr));
     const int active_count = int(active_views_.size());
     const std::span<std::byte> host(
         reinterpret_cast<std::byte*>(estimates),
@@ -349,12 +351,19 @@ class OpenClBackend : public Backend {
     Buffer state = device_.info().shares_host_memory
                        ? Buffer::over_host_memory(device_, host)
                        : Buffer(device_, std::span<const std::byte>(host));
+    Buffer* guard = &state;  // not looked at
+    if (bars) {
+      const std::span<const float> values(bars, host.size() / sizeof(PackedEstimate));
+      guard = &bars_.at_least(device_, values.size_bytes());
+      guard->write(values);
+    }
     kernel
         .set_args(band_memory_.buffer, band_, strip(ref, rows), rays(ref), active_buffer_,
                   active_count, upload(3, rows, disparity), upload(4, rows, confidence),
                   upload(5, rows, radiance), setup_.options.propagation.tolerance, state_rows.begin,
-                  state_rows.end, finished, setup_.options.propagation.finished_lead, state)
-        .run(WorkSize(active_count), WorkSize(1));
+                  state_rows.end, *guard, state)
+        .run(atomic ? WorkSize(band_.width, rows.size()) : WorkSize(active_count, 1),
+             WorkSize(1, 1));
     if (device_.info().shares_host_memory)
       opencl::Mapping(state, opencl::Mapping::Access::kRead);
     else
@@ -522,8 +531,8 @@ class OpenClBackend : public Backend {
   Buffer table_buffer_, active_buffer_, rays_buffer_;
   std::map<ScoreViews, ViewSet> view_sets_;
   RowRange own_rows_;  ///< of own_pixels_, which stand for the reference view; empty: they don't
-  Scratch shifts_, packed_, encoded_, mask_, band_memory_, taps_, own_pixels_, means_, raw_scores_,
-      supported_scores_, path_scores_, maps_[6];
+  Scratch bars_, shifts_, packed_, encoded_, mask_, band_memory_, taps_, own_pixels_, means_,
+      raw_scores_, supported_scores_, path_scores_, maps_[6];
 };
 
 }  // namespace

@@ -8,14 +8,14 @@
 namespace gigaray::reference {
 
 /// Writes accepted estimates into every active view that sees them in a similar colour
-/// (section 4.4). active_views: their places in the band, -1: not there. estimates:
-/// [state_rows][active view][width]. finished: how many active views, the first ones, keep what
-/// they have unless what arrives is nearer and leads.
+/// (section 4.4). active_views: their places in the band, -1: not there. bars, estimates:
+/// [state_rows][active view][width]. An arrival that is not more confident than a bar above 0 is
+/// left out; null: no bars. Of those that meet the largest packed number stays, in any order.
 template <RaySampler S>
 void propagation(const Band& band, const S& sampler, int ref, RowRange rows,
                  const std::vector<int>& active_views, const PropagationOptions& options,
                  const StripMap<float>& disparity, const StripMap<float>& confidence,
-                 const StripMap<Radiance>& radiance, RowRange state_rows, int finished,
+                 const StripMap<Radiance>& radiance, RowRange state_rows, const float* bars,
                  PackedEstimate* estimates) {
   const int width = band.shape.width;
   for (int v = rows.begin; v < rows.end; ++v) {
@@ -35,15 +35,12 @@ void propagation(const Band& band, const S& sampler, int ref, RowRange rows,
             view == ref || colour_distance(band.pixel(view, int(x), int(y)),
                                            {mean.r, mean.g, mean.b}) < options.tolerance;
         if (!similar) continue;
-        PackedEstimate& estimate =
-            estimates[(std::size_t(int(y) - state_rows.begin) * active_views.size() + target) *
-                          width +
-                      int(x)];
-        if (int(target) < finished && estimate != 0 && options.finished_lead > 0 &&
-            !(confidence.row(v)[u] > options.finished_lead * confidence_of(estimate)))
-          continue;
-        estimate =
-            std::max(estimate, pack_estimate(float(there->hypothesis), confidence.row(v)[u]));
+        const std::size_t at =
+            (std::size_t(int(y) - state_rows.begin) * active_views.size() + target) * width +
+            int(x);
+        if (bars && bars[at] > 0 && !(confidence.row(v)[u] > bars[at])) continue;
+        estimates[at] =
+            std::max(estimates[at], pack_estimate(float(there->hypothesis), confidence.row(v)[u]));
       }
     }
   }

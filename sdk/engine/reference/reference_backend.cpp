@@ -146,11 +146,11 @@ class ReferenceBackend : public Backend {
   }
   void propagation(int ref, RowRange rows, const StripMap<float>& disparity,
                    const StripMap<float>& confidence, const StripMap<Radiance>& radiance,
-                   RowRange state_rows, int finished, PackedEstimate* estimates) override {
+                   RowRange state_rows, const float* bars, PackedEstimate* estimates) override {
     std::vector<int> active;
     for (const int view : active_views_) active.push_back(places_[view]);
     reference::propagation(band_, sampler_, place(ref), rows, active, setup_.options.propagation,
-                           disparity, confidence, radiance, state_rows, finished, estimates);
+                           disparity, confidence, radiance, state_rows, bars, estimates);
   }
   void downsample(RowRange small_rows, float* small) override {
     reference::downsample(band_, small_rows, small);

@@ -2,7 +2,9 @@
 // Copyright (c) 2026 The Gigaray authors
 #include "gigaray/backend.h"
 
+#include <algorithm>
 #include <bit>
+#include <limits>
 
 #include "gigaray/srgb.h"
 
@@ -13,6 +15,11 @@ PackedEstimate pack_estimate(float hypothesis, float confidence) {
   const auto bits = std::bit_cast<std::uint32_t>(hypothesis);
   const std::uint32_t key = bits & 0x80000000u ? ~bits : bits | 0x80000000u;
   return PackedEstimate(key) << 32 | std::bit_cast<std::uint32_t>(std::max(confidence, 0.0f));
+}
+
+float bar_of(PackedEstimate own, float finished_lead) {
+  if (own == 0) return 0;
+  return std::max(finished_lead * confidence_of(own), std::numeric_limits<float>::min());
 }
 
 float hypothesis_of(PackedEstimate estimate) {

@@ -43,9 +43,11 @@ void Pipeline::run() {
     for (int i = 0; i < int(active_.size()); ++i) {
       report(double(i) / double(active_.size()));
       ViewMaps maps;
-      if (!find_todo(i, maps)) continue;
-      score_view(active_[i], maps);
-      accept_view(i, maps);
+      if (find_todo(i, maps)) {
+        score_view(active_[i], maps);
+        accept_view(i, maps);
+      }
+      raise_bars(i);
     }
     if (!is_last_level()) coarsen();
     levels_[level_].pixels = RowStore();
@@ -123,6 +125,8 @@ void Pipeline::begin_level(int level) {
   }
   LevelState& state = levels_[level];
   state.estimates = make_store(shape.height, active * width * sizeof(PackedEstimate));
+  if (options_.propagation.finished_lead > 0 && active > 1)
+    state.bars = make_store(shape.height, active * width * sizeof(float));
   if (options_.edge.threshold >= 0 && !is_last_level())
     state.mask = make_store(shape.height, active * width);
   if (!is_last_level()) {
@@ -366,9 +370,26 @@ void Pipeline::accept_view(int active_idx, ViewMaps& maps) {
           tuples_.append({h, maps.confidence.row(v)[u], radiance.row(v)[u], view, u, v, level_});
     const RowRange reached = rows_needed(view, band);
     std::byte* estimates = state.estimates.open(reached, state_scratch_);
-    backend_.propagation(view, band, accepted, maps.confidence, radiance, reached, active_idx,
+    const std::byte* bars = state.bars.empty() ? nullptr : state.bars.open(reached, bar_scratch_);
+    backend_.propagation(view, band, accepted, maps.confidence, radiance, reached,
+                         reinterpret_cast<const float*>(bars),
                          reinterpret_cast<PackedEstimate*>(estimates));
     state.estimates.close(reached, estimates);
+  }
+}
+
+void Pipeline::raise_bars(int active_idx) {
+  LevelState& state = levels_[level_];
+  if (state.bars.empty()) return;
+  const std::size_t width = state.shape.width, at = active_idx * width;
+  std::vector<PackedEstimate> estimates(width);
+  std::vector<float> bars(width);
+  for (int v = 0; v < state.shape.height; ++v) {
+    state.estimates.read(v, at * sizeof(PackedEstimate), width * sizeof(PackedEstimate),
+                         estimates.data());
+    for (std::size_t u = 0; u < width; ++u)
+      bars[u] = bar_of(estimates[u], options_.propagation.finished_lead);
+    state.bars.write(v, at * sizeof(float), width * sizeof(float), bars.data());
   }
 }
 

@@ -22,6 +22,7 @@ struct LevelState {
   RowStore pixels;     ///< [v][view]: level 0 [u][3] as decoded, else [3][u] floats
   RowStore mask;       ///< [v][active view][u]: worth trying; empty: everything is
   RowStore estimates;  ///< [v][active view][u] PackedEstimate
+  RowStore bars;       ///< [v][active view][u] floats, see raise_bars(); empty: no view has any
   RowStore search;     ///< [v][active view][u] Search; empty at level 0
 };
 
@@ -82,6 +83,8 @@ class Pipeline {
   StripMap<Slope> fit_slopes(int view, const StripMap<std::uint8_t>& todo,
                              const StripMap<float>& smooth);
   void accept_view(int active_idx, ViewMaps& maps);
+  /// The view is finished: from now on what arrives in it must lead (finished_lead).
+  void raise_bars(int active_idx);
   void coarsen();
 
   std::vector<RowRange> bands() const;
@@ -121,7 +124,7 @@ class Pipeline {
   bool loaded_masked_ = false;
   const StripMap<float>* means_ = nullptr;  ///< stand for the pixels of the view that is worked on
   RowRange scored_rows_;  ///< what the backend has raw scores of, for the view that is worked on
-  AlignedBytes band_scratch_, mask_scratch_, state_scratch_;
+  AlignedBytes band_scratch_, mask_scratch_, state_scratch_, bar_scratch_;
 };
 
 }  // namespace gigaray

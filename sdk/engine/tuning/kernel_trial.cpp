@@ -171,7 +171,7 @@ void KernelTrial::run(Backend& backend, const std::string& kernel) {
   else if (kernel == "mean_radiance")
     backend.mean_radiance(ref_, rows(), disparity_, mean_radiance_);
   else if (kernel == "propagation")
-    backend.propagation(ref_, rows(), disparity_, confidence_, radiance_, rows(), 0,
+    backend.propagation(ref_, rows(), disparity_, confidence_, radiance_, rows(), nullptr,
                         estimates_.data());
   else
     backend.downsample({0, (shape_.height + 1) / 2}, small_.data());

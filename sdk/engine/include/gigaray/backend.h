@@ -62,6 +62,9 @@ struct HypothesisBounds {
 /// hypothesis, then the higher confidence. 0: none.
 using PackedEstimate = std::uint64_t;
 PackedEstimate pack_estimate(float hypothesis, float confidence);
+/// What an arrival must exceed in confidence at a pixel of a finished view that has `own`; 0 where
+/// it has none.
+float bar_of(PackedEstimate own, float finished_lead);
 float hypothesis_of(PackedEstimate estimate);  ///< NaN for none
 float confidence_of(PackedEstimate estimate);
 
@@ -172,11 +175,10 @@ class Backend {
   virtual void mean_radiance(int ref, RowRange rows, const StripMap<float>& disparity,
                              StripMap<Radiance>& radiance) = 0;
   /// estimates: [state_rows][active view][width], updated. Rays that leave state_rows are dropped.
-  /// finished: so many of the active views, the first ones, keep what they have unless what arrives
-  /// is nearer and leads by PropagationOptions::finished_lead.
+  /// bars: alike; what arrives where one is above 0 must be more confident than it. Null: none is.
   virtual void propagation(int ref, RowRange rows, const StripMap<float>& disparity,
                            const StripMap<float>& confidence, const StripMap<Radiance>& radiance,
-                           RowRange state_rows, int finished, PackedEstimate* estimates) = 0;
+                           RowRange state_rows, const float* bars, PackedEstimate* estimates) = 0;
   /// small: [small_rows][loaded view][3][(width + 1) / 2]. The band covers rows 2v − 3 … 2v + 3 of
   /// them.
   virtual void downsample(RowRange small_rows, float* small) = 0;
