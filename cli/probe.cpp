@@ -275,9 +275,12 @@ void run(const Settings& settings, const RunControl& control) {
   finding.curve = probe(light_field, options, settings.run.backend(), finding.view, finding.u,
                         finding.v, control);
   read_curve(finding);
-  if (settings.decided)
-    finding.decision = reconstruct(light_field, options, settings.run.backend(), control)
+  if (settings.decided) {
+    DepthOptions explained = options;
+    explained.keep_searches = true;
+    finding.decision = reconstruct(light_field, explained, settings.run.backend(), control)
                            .decision(finding.view, finding.u, finding.v);
+  }
 
   const std::string json =
       to_json(finding, light_field).dump(2, ' ', false, ordered_json::error_handler_t::replace);

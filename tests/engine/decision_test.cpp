@@ -23,6 +23,7 @@ Reconstruction run(const LightField& light_field, const std::string& preset) {
   options.disparity = DisparityRange{-1, 2};
   options.hypotheses = 61;
   options.propagation.final_median_radius = 0;
+  options.keep_searches = true;
   return reconstruct(light_field, options, {"opencl", ""}, {});
 }
 

@@ -29,7 +29,7 @@ StripMap<std::uint8_t> lonely_pixels(ParityBench<S>& bench) {
 
 template <class S>
 void expect_scores_near(ParityBench<S>& bench, const StripMap<std::uint8_t>& todo,
-                        const StripMap<HypothesisBounds>& bounds, Backend& expected,
+                        const StripMap<HypothesisBounds>& bounds, HostSteps& expected,
                         double tolerance) {
   for (int v = bench.rows().begin; v < bench.rows().end; ++v)
     for (int u = 0; u < bench.width(); ++u) {

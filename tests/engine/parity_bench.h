@@ -12,14 +12,14 @@
 #include <utility>
 #include <vector>
 
-#include "gigaray/backend.h"
+#include "engine/host_steps.h"
 #include "gigaray/samplers/any_sampler.h"
-#include "opencl/opencl_backend.h"
+#include "opencl/opencl_workspace.h"
 #include "support/analytic_field.h"
 
 namespace gigaray::testing_support {
 
-/// How far two backends are apart.
+/// How far two workspaces are apart.
 struct Difference {
   double largest = 0;
   long values = 0;
@@ -63,7 +63,7 @@ class ParityTable {
   std::map<std::pair<std::string, std::string>, Difference> rows_;
 };
 
-/// Sizes and encoding of a band that both backends work on.
+/// Sizes and encoding of a band that both workspaces work on.
 struct ParityCase {
   int width, height;
   RowRange rows;  ///< what the steps work on; the band holds more where the picture has more
@@ -119,7 +119,7 @@ struct ParityRig<UnstructuredSampler> {
   }
 };
 
-/// Both backends over one band of smooth, random and flat content, and maps to call them with.
+/// Both workspaces over one band of smooth, random and flat content, and maps to call them with.
 template <RaySampler S>
 class ParityBench {
  public:
@@ -132,10 +132,10 @@ class ParityBench {
         sampler_(ParityRig<S>::sampler(views, size.width << size.level, size.height << size.level)),
         random_(size.width) {
     if (!S::kRaysShiftAlike) options.score.cubic = false;  // as prepared by reconstruct()
-    const BackendSetup setup{options, hypotheses_, ParityRig<S>::kKind,
-                             size.encoding == BandEncoding::kBits16 ? 16 : 8};
-    reference = make_reference_backend(sampler_, setup);
-    opencl = opencl::make_tuned_backend(sampler_, setup, "", tuning);
+    const WorkspaceSetup setup{options, hypotheses_, ParityRig<S>::kKind,
+                               size.encoding == BandEncoding::kBits16 ? 16 : 8};
+    reference = std::make_unique<HostSteps>(make_reference_workspace(sampler_, setup));
+    opencl = std::make_unique<HostSteps>(opencl::make_tuned_workspace(sampler_, setup, "", tuning));
     // No window reaches farther.
     const int halo = std::max(kSlopeReach, kScanlineReach + options.support.radius) + 3;
     loaded = rows_of_all(grown(size.rows, halo, size.height));
@@ -144,11 +144,10 @@ class ParityBench {
     for (int i = 0; i < int(active.size()); ++i) active[i] = int(active.size()) - 1 - i;
     active.pop_back();  // one view keeps no estimates
     active_count = int(active.size());
-    for (Backend* backend : {reference.get(), opencl.get()}) {
-      backend->set_active_views(active);
-      backend->begin_level({size.level, size.width, size.height});
-      backend->load_band(loaded, all_views(sampler_.num_views()), encoded_.data(), size.encoding,
-                         nullptr);
+    for (HostSteps* steps : {reference.get(), opencl.get()}) {
+      steps->workspace().set_active_views(active);
+      steps->begin_level({size.level, size.width, size.height});
+      steps->load_band(loaded, all_views(sampler_.num_views()), encoded_, size.encoding);
     }
   }
 
@@ -238,7 +237,7 @@ class ParityBench {
     return map;
   }
 
-  std::unique_ptr<Backend> reference, opencl;
+  std::unique_ptr<HostSteps> reference, opencl;
   RowRange loaded;
   int active_count = 0;
 

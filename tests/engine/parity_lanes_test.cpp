@@ -74,8 +74,8 @@ class ParityLanes : public testing::Test {
     std::vector<float> expected_small(std::size_t(small.size()) * bench.sampler().num_views() * 3 *
                                       ((bench.width() + 1) / 2));
     auto actual_small = expected_small;
-    bench.reference->downsample(small, expected_small.data());
-    bench.opencl->downsample(small, actual_small.data());
+    bench.reference->downsample(small, bench.sampler().num_views(), expected_small);
+    bench.opencl->downsample(small, bench.sampler().num_views(), actual_small);
     Difference difference;
     for (std::size_t i = 0; i < actual_small.size(); ++i)
       difference.add(expected_small[i], actual_small[i]);
@@ -91,18 +91,18 @@ class ParityLanes : public testing::Test {
     const auto full = bench.full_bounds(around);
     const auto todo = bench.random_todo(rows);
     const auto bounds = bench.random_bounds(rows);
-    for (Backend* backend : {bench.reference.get(), bench.opencl.get()})
+    for (HostSteps* backend : {bench.reference.get(), bench.opencl.get()})
       backend->robust_score(0, around, all, full, ScoreViews::kAll);
     expect_within("robust score" + lanes, compare_scores(bench, around, all, 1), kScore);
-    for (Backend* backend : {bench.reference.get(), bench.opencl.get()})
+    for (HostSteps* backend : {bench.reference.get(), bench.opencl.get()})
       backend->score_support(0, rows, todo, bounds);
     expect_within("score support" + lanes, compare_scores(bench, rows, todo, 1), kScore);
-    for (Backend* backend : {bench.reference.get(), bench.opencl.get()})
+    for (HostSteps* backend : {bench.reference.get(), bench.opencl.get()})
       backend->robust_score(0, around, all, full, ScoreViews::kHalfPlanes);
     expect_within("robust score, half-planes" + lanes, compare_scores(bench, around, all, 1),
                   kScore);
     const auto slopes = bench.random_slopes(rows);
-    for (Backend* backend : {bench.reference.get(), bench.opencl.get()})
+    for (HostSteps* backend : {bench.reference.get(), bench.opencl.get()})
       backend->slanted_support(0, rows, todo, bounds, slopes);
     expect_within("slanted support" + lanes, compare_scores(bench, rows, todo, 1), kScore);
 

@@ -56,7 +56,7 @@ class Parity : public testing::Test {
     const auto todo = bench.random_todo(supported);
     StripMap<float> expected(bench.width(), bench.rows()), actual = expected;
     StripMap<float> expected_score = expected, actual_score = expected;
-    for (Backend* backend : {bench.reference.get(), bench.opencl.get()}) {
+    for (HostSteps* backend : {bench.reference.get(), bench.opencl.get()}) {
       const bool is_reference = backend == bench.reference.get();
       StripMap<float>& found = is_reference ? expected : actual;
       StripMap<float> contrast(bench.width(), bench.rows());
@@ -168,7 +168,7 @@ TYPED_TEST(Parity, RobustScores) {
       const auto todo = bench.random_todo(bench.rows());
       const auto bounds = bench.random_bounds(bench.rows());
       for (const int ref : {3, 0}) {
-        for (Backend* backend : {bench.reference.get(), bench.opencl.get()})
+        for (HostSteps* backend : {bench.reference.get(), bench.opencl.get()})
           backend->robust_score(ref, bench.rows(), todo, bounds, variant.views);
         this->expect_within(variant.stage, compare_scores(bench, bench.rows(), todo, 1), kScore);
       }
@@ -182,7 +182,7 @@ TYPED_TEST(Parity, FirstLookAtSomeOfManyViews) {
     ParityBench<TypeParam> bench(size, auto_options(), views, {-0.1, 0.2, 7});
     const auto todo = bench.all_todo(bench.rows());
     const auto bounds = bench.full_bounds(bench.rows());
-    for (Backend* backend : {bench.reference.get(), bench.opencl.get()})
+    for (HostSteps* backend : {bench.reference.get(), bench.opencl.get()})
       backend->robust_score(30, bench.rows(), todo, bounds, ScoreViews::kFirst);
     this->expect_within("robust score, some views", compare_scores(bench, bench.rows(), todo, 1),
                         kScore);
@@ -212,17 +212,17 @@ TYPED_TEST(Parity, RayMeansAndWhatIsScoredAgainstThem) {
 
     const auto all = bench.all_todo(around);
     const auto full = bench.full_bounds(around);
-    for (Backend* backend : {bench.reference.get(), bench.opencl.get()}) {
-      backend->replace_reference(around, expected);
+    for (HostSteps* backend : {bench.reference.get(), bench.opencl.get()}) {
+      backend->replace_reference(expected);
       backend->robust_score(2, around, all, full, ScoreViews::kAll);
     }
     this->expect_within("robust score against means", compare_scores(bench, bench.rows(), all, 1),
                         kScore);
-    for (Backend* backend : {bench.reference.get(), bench.opencl.get()})
+    for (HostSteps* backend : {bench.reference.get(), bench.opencl.get()})
       backend->score_support(2, bench.rows(), all, full);
     this->expect_within("score support by means", compare_scores(bench, bench.rows(), all, 1),
                         kScore);
-    for (Backend* backend : {bench.reference.get(), bench.opencl.get()}) {
+    for (HostSteps* backend : {bench.reference.get(), bench.opencl.get()}) {
       backend->restore_reference();
       backend->robust_score(2, around, all, full, ScoreViews::kAll);
     }
@@ -242,7 +242,7 @@ TYPED_TEST(Parity, RegularRigs) {
         ParityBench<TypeParam> bench(size, options, ParityRig<TypeParam>::regular(), hypotheses);
         const auto todo = bench.all_todo(bench.rows());
         const auto bounds = bench.full_bounds(bench.rows());
-        for (Backend* backend : {bench.reference.get(), bench.opencl.get()}) {
+        for (HostSteps* backend : {bench.reference.get(), bench.opencl.get()}) {
           if (options.score.gradient)
             backend->robust_score(1, bench.rows(), todo, bounds, ScoreViews::kAll);
           else
@@ -264,12 +264,12 @@ TYPED_TEST(Parity, SupportedScores) {
     const auto todo = bench.random_todo(bench.rows());
     const auto bounds = bench.random_bounds(bench.rows());
     const auto slopes = bench.random_slopes(bench.rows());
-    for (Backend* backend : {bench.reference.get(), bench.opencl.get()}) {
+    for (HostSteps* backend : {bench.reference.get(), bench.opencl.get()}) {
       backend->robust_score(0, around, all, full, ScoreViews::kAll);
       backend->score_support(0, bench.rows(), todo, bounds);
     }
     this->expect_within("score support", compare_scores(bench, bench.rows(), todo, 1), kScore);
-    for (Backend* backend : {bench.reference.get(), bench.opencl.get()})
+    for (HostSteps* backend : {bench.reference.get(), bench.opencl.get()})
       backend->slanted_support(0, bench.rows(), todo, bounds, slopes);
     this->expect_within("slanted support", compare_scores(bench, bench.rows(), todo, 1), kScore);
   }
@@ -378,36 +378,52 @@ TYPED_TEST(Parity, MeanRadiance) {
     }
 }
 
+/// Estimates of three views, and what is there before.
+template <class S>
+struct Arrivals {
+  explicit Arrivals(ParityBench<S>& bench) : reached(bench.rows_of_all(bench.rows())) {
+    before.resize(std::size_t(reached.size()) * bench.active_count * bench.width());
+    for (PackedEstimate& estimate : before)
+      if (bench.uniform() < 0.5) estimate = pack_estimate(float(bench.uniform() - 0.5), 0.4f);
+    for (const int ref : refs) {
+      disparity[ref] = bench.random_disparity(bench.rows(), 0.9);
+      confidence[ref] = bench.random_values(bench.rows());
+      radiance[ref] = StripMap<Radiance>(bench.width(), bench.rows());
+      bench.reference->mean_radiance(ref, bench.rows(), disparity[ref], radiance[ref]);
+    }
+  }
+  const std::vector<int> refs{4, 0, 2};
+  RowRange reached;
+  std::vector<PackedEstimate> before;
+  std::map<int, StripMap<float>> disparity, confidence;
+  std::map<int, StripMap<Radiance>> radiance;
+};
+
 TYPED_TEST(Parity, Propagation) {
   for (const ParityCase& size : parity_cases()) {
     DepthOptions options = paper_options();
+    options.propagation.finished_lead = 1.25f;
     ParityBench<TypeParam> bench(size, options);
-    const RowRange reached = bench.rows_of_all(bench.rows());
-    std::vector<PackedEstimate> expected(std::size_t(reached.size()) * bench.active_count *
-                                         bench.width());
-    // Some estimates are there already.
-    std::vector<float> bars;
-    for (PackedEstimate& estimate : expected) {
-      if (bench.uniform() < 0.2) estimate = pack_estimate(float(bench.uniform() - 0.5), 0.5f);
-      bars.push_back(bench.uniform() < 0.5 ? bar_of(estimate, 1.25f) : 0);
+    Arrivals<TypeParam> arrivals(bench);
+    auto expected = arrivals.before, actual = expected;
+    for (const int ref : arrivals.refs) {
+      const int finished = ref == 4 ? 0 : 2;
+      bench.reference->propagation(ref, bench.rows(), arrivals.disparity[ref],
+                                   arrivals.confidence[ref], arrivals.radiance[ref],
+                                   arrivals.reached, bench.active_count, finished, expected);
+      bench.opencl->propagation(ref, bench.rows(), arrivals.disparity[ref],
+                                arrivals.confidence[ref], arrivals.radiance[ref], arrivals.reached,
+                                bench.active_count, finished, actual);
+      EXPECT_FALSE(bench.reference->bars_left || bench.opencl->bars_left);
     }
-    auto actual = expected;
-    for (const int ref : {4, 0}) {
-      const auto disparity = bench.random_disparity(bench.rows(), 0.9);
-      const auto confidence = bench.random_values(bench.rows());
-      StripMap<Radiance> radiance(bench.width(), bench.rows());
-      bench.reference->mean_radiance(ref, bench.rows(), disparity, radiance);
-      bench.reference->propagation(ref, bench.rows(), disparity, confidence, radiance, reached,
-                                   ref == 4 ? nullptr : bars.data(), expected.data());
-      bench.opencl->propagation(ref, bench.rows(), disparity, confidence, radiance, reached,
-                                ref == 4 ? nullptr : bars.data(), actual.data());
-    }
+    EXPECT_NE(expected, arrivals.before);
     Difference hypothesis, confidence;
-    // Rounding of a quotient decides about a nearest pixel, and which of two estimates is nearer.
+    // Rounding decides about a nearest pixel, and of a quotient which of two estimates is nearer.
     const double same = TypeParam::kRaysShiftAlike ? 0 : 1e-5;
     for (std::size_t i = 0; i < expected.size(); ++i) {
       const float a = hypothesis_of(expected[i]), b = hypothesis_of(actual[i]);
-      if (same > 0 && (std::isnan(a) != std::isnan(b) || std::abs(a - b) > same)) {
+      if (std::isnan(a) != std::isnan(b) || std::abs(a - b) > same ||
+          confidence_of(expected[i]) != confidence_of(actual[i])) {
         ++hypothesis.values;
         ++hypothesis.apart;
         continue;
@@ -421,46 +437,46 @@ TYPED_TEST(Parity, Propagation) {
 }
 
 TYPED_TEST(Parity, PropagationHasNoOrder) {
-  // The estimates of three views, each cut into rows, arrive in random orders.
-  const ParityCase size{93, 31, {9, 16}};
-  ParityBench<TypeParam> bench(size, paper_options());
-  const RowRange reached = bench.rows_of_all(bench.rows());
-  std::vector<PackedEstimate> before(std::size_t(reached.size()) * bench.active_count *
-                                     bench.width());
-  std::vector<float> bars;
-  for (PackedEstimate& estimate : before) {
-    if (bench.uniform() < 0.5) estimate = pack_estimate(float(bench.uniform() - 0.5), 0.3f);
-    bars.push_back(bench.uniform() < 0.5 ? bar_of(estimate, 2) : 0);
-  }
-  struct Arrival {
-    int ref;
-    RowRange rows;
-  };
-  std::vector<Arrival> arrivals;
-  std::map<int, StripMap<float>> disparity, confidence;
-  std::map<int, StripMap<Radiance>> radiance;
-  for (const int ref : {4, 0, 2}) {
-    disparity[ref] = bench.random_disparity(bench.rows(), 0.9);
-    confidence[ref] = bench.random_values(bench.rows());
-    radiance[ref] = StripMap<Radiance>(bench.width(), bench.rows());
-    bench.reference->mean_radiance(ref, bench.rows(), disparity[ref], radiance[ref]);
-    for (int v = bench.rows().begin; v < bench.rows().end; ++v)
-      arrivals.push_back({ref, {v, v + 1}});
-  }
-  for (Backend* backend : {bench.reference.get(), bench.opencl.get()}) {
+  // The estimates of a view, cut into rows, arrive in random orders.
+  DepthOptions options = paper_options();
+  options.propagation.finished_lead = 1.25f;
+  ParityBench<TypeParam> bench(ParityCase{93, 31, {9, 16}}, options);
+  Arrivals<TypeParam> arrivals(bench);
+  for (HostSteps* steps : {bench.reference.get(), bench.opencl.get()}) {
     std::vector<PackedEstimate> expected;
     for (unsigned seed = 0; seed < 8; ++seed) {
-      std::shuffle(arrivals.begin(), arrivals.end(), std::mt19937(seed));
-      std::vector<PackedEstimate> merged = before;
-      for (const auto& [ref, rows] : arrivals)
-        backend->propagation(ref, rows, disparity[ref], confidence[ref], radiance[ref], reached,
-                             bars.data(), merged.data());
+      const RowsOnDevice merged =
+          steps->up(arrivals.before, arrivals.reached.begin, bench.active_count);
+      const RowsOnDevice bars = steps->up(std::vector<float>(arrivals.before.size()),
+                                          arrivals.reached.begin, bench.active_count);
+      std::mt19937 random(seed);
+      for (const int ref : arrivals.refs) {
+        const auto disparity = steps->up(arrivals.disparity[ref]);
+        const auto confidence = steps->up(arrivals.confidence[ref]);
+        const auto radiance = steps->up(arrivals.radiance[ref]);
+        std::vector<RowRange> parts;
+        for (int v = bench.rows().begin; v < bench.rows().end;) {
+          const int end = std::min(v + 1 + int(random() % 3), bench.rows().end);
+          parts.push_back({v, end});
+          v = end;
+        }
+        std::shuffle(parts.begin(), parts.end(), random);
+        for (const RowRange rows : parts) {
+          steps->workspace().set_bars(ref, rows, disparity, arrivals.reached, 2, merged, bars);
+          steps->workspace().propagation(ref, rows, disparity, confidence, radiance,
+                                         arrivals.reached, 2, bars, merged);
+        }
+        for (const RowRange rows : parts)
+          steps->workspace().clear_bars(ref, rows, disparity, arrivals.reached, 2, bars);
+      }
+      std::vector<PackedEstimate> result(arrivals.before.size());
+      steps->down(merged, result);
       if (seed == 0)
-        expected = merged;
+        expected = result;
       else
-        EXPECT_EQ(merged, expected) << seed;
+        EXPECT_EQ(result, expected) << seed;
     }
-    EXPECT_NE(expected, before);
+    EXPECT_NE(expected, arrivals.before);
   }
 }
 
@@ -471,8 +487,8 @@ TYPED_TEST(Parity, Downsampling) {
     std::vector<float> expected(std::size_t(small.size()) * bench.sampler().num_views() * 3 *
                                 ((bench.width() + 1) / 2));
     auto actual = expected;
-    bench.reference->downsample(small, expected.data());
-    bench.opencl->downsample(small, actual.data());
+    bench.reference->downsample(small, bench.sampler().num_views(), expected);
+    bench.opencl->downsample(small, bench.sampler().num_views(), actual);
     Difference difference;
     for (std::size_t i = 0; i < expected.size(); ++i) difference.add(expected[i], actual[i]);
     this->expect_within("downsampling", difference, kRounding);

@@ -3,9 +3,12 @@
 // The result does not depend on memory, files, bands or strips, and is the same every time.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "engine/cache_fixture.h"
+#include "src/make_workspace.h"
 #include "src/pipeline.h"
 #include "support/analytic_field.h"
 #include "support/depth_result.h"
@@ -93,10 +96,10 @@ INSTANTIATE_TEST_SUITE_P(Jobs, PipelineBands,
 /// A run with bands and strips of a given height, where memory would not ask for them.
 struct PlannedRun {
   std::vector<RayTuple> tuples;
-  std::vector<std::vector<std::byte>> estimates;  // per level
+  std::vector<std::vector<float>> maps;  // disparity, confidence and level of every view
 
   PlannedRun(const LightField& light_field, DepthOptions options, const std::string& backend_name,
-             int band_rows, bool least_strips, const std::string& work_folder) {
+             int band_rows, bool least_strips, Place place, const std::string& work_folder) {
     const HypothesisRange hypotheses{options.disparity->min, options.disparity->max,
                                      options.hypotheses};
     options.memory_bytes = 4e9;
@@ -110,29 +113,35 @@ struct PlannedRun {
       if (least_strips) level.strip_rows = least;
     }
     plan.work_folder = work_folder;
-    const BackendSetup setup{options, hypotheses, light_field.kind,
-                             light_field.pixels->bit_depth()};
+    plan.place = place;
+    const WorkspaceSetup setup{options, hypotheses, light_field.kind,
+                               light_field.pixels->bit_depth()};
     const RunControl control;
     std::visit(
         [&](const auto& sampler) {
-          const auto backend = backend_name == "reference"
-                                   ? make_reference_backend(sampler, setup)
-                                   : make_opencl_backend(sampler, setup, "");
-          Pipeline pipeline(light_field, options, hypotheses, plan, *backend, control);
+          const auto workspace = backend_name == "reference"
+                                     ? make_reference_workspace(sampler, setup)
+                                     : make_opencl_workspace(sampler, setup, "");
+          Pipeline pipeline(light_field, options, hypotheses, plan, *workspace, control);
           pipeline.run();
           pipeline.tuples().for_each([&](const RayTuple& tuple) { tuples.push_back(tuple); });
-          for (LevelState& level : pipeline.levels()) {
-            estimates.emplace_back(level.estimates.row_bytes() * level.shape.height);
-            for (int v = 0; v < level.shape.height; ++v)
-              level.estimates.read(v, 0, level.estimates.row_bytes(),
-                                   estimates.back().data() + v * level.estimates.row_bytes());
-          }
+          const int width = light_field.width;
+          for (int view = 0; view < int(pipeline.active_views().size()); ++view)
+            for (int v = 0; v < light_field.height; ++v) {
+              std::vector<std::int8_t> level(width);
+              maps.emplace_back(3 * width);
+              pipeline.maps().read(view, v, maps.back().data(), maps.back().data() + width,
+                                   level.data());
+              std::copy(level.begin(), level.end(), maps.back().begin() + 2 * width);
+              for (float& value : maps.back())
+                if (std::isnan(value)) value = -1000;  // equal to itself
+            }
         },
         make_sampler(light_field));
   }
 
   void expect_same(const PlannedRun& other, const std::string& what) const {
-    EXPECT_TRUE(estimates == other.estimates) << what;
+    EXPECT_TRUE(maps == other.maps) << what;
     ASSERT_EQ(tuples.size(), other.tuples.size()) << what;
     for (std::size_t i = 0; i < tuples.size(); ++i)
       ASSERT_TRUE(same_bits(tuples[i], other.tuples[i])) << what << ", tuple " << i;
@@ -142,10 +151,13 @@ struct PlannedRun {
 void expect_bands_alike(const std::string& backend, const LightField& light_field,
                         const DepthOptions& options) {
   const ScopedFolder work;
-  const PlannedRun expected(light_field, options, backend, 1000, false, "");
+  const PlannedRun expected(light_field, options, backend, 1000, false, Place::kDevice, "");
   EXPECT_GT(expected.tuples.size(), std::size_t(light_field.width) * light_field.height / 2);
   for (const int band_rows : {1, 5, 8, 19, 50})
     PlannedRun(light_field, options, backend, band_rows, band_rows == 8,
+               band_rows == 5    ? Place::kFile
+               : band_rows == 19 ? Place::kHost
+                                 : Place::kDevice,
                band_rows == 5 ? work.path.string() : "")
         .expect_same(expected, backend + " in bands of " + std::to_string(band_rows));
 }

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <limits>
 
-#include "gigaray/backend.h"
 #include "gigaray/samplers/any_sampler.h"
 #include "reference/bilateral_median.h"
 #include "reference/density_score.h"
@@ -19,6 +18,7 @@
 #include "reference/slope_fit.h"
 #include "reference/unpack_channels.h"
 #include "reference/winner.h"
+#include "src/make_workspace.h"
 #include "support/analytic_field.h"
 
 namespace gigaray::testing_support {
@@ -296,6 +296,13 @@ TEST(ReferenceSupport, AlongTheSlopeASlantedSurfaceKeepsItsPeak) {
   EXPECT_NEAR(plain.at(7, 0, 7), 1 - 12.0 / 7 / 8, 1e-5);
 }
 
+/// A mask of all pixels.
+StripMap<std::uint8_t> all_of(const StripMap<float>& map) {
+  StripMap<std::uint8_t> mask(map.width(), map.rows());
+  for (int v = map.rows().begin; v < map.rows().end; ++v) std::fill_n(mask.row(v), map.width(), 1);
+  return mask;
+}
+
 TEST(ReferenceSlopes, OfAPlaneAreFoundDespiteHolesAndOutliers) {
   const Band flat = band_of(61, 41, 1, 3, [](int, int, int, int) { return 0.5; });
   StripMap<float> in(61, {0, 41});
@@ -306,10 +313,10 @@ TEST(ReferenceSlopes, OfAPlaneAreFoundDespiteHolesAndOutliers) {
       if ((u + v) % 11 == 0) in.row(v)[u] += 3;
     }
   StripMap<Slope> slopes(61, {0, 41});
-  reference::slope_fit(flat, 0, {0, 41}, kStep, 0.3f, in, slopes);
+  reference::slope_fit(flat, 0, {0, 41}, kStep, 0.3f, all_of(in).view(), in.view(), slopes);
   EXPECT_NEAR(slopes.row(20)[31].along_u, 0.013, 5e-4);
   EXPECT_NEAR(slopes.row(20)[31].along_v, -0.007, 5e-4);
-  reference::slope_fit(flat, 0, {20, 21}, kStep, 0.005f, in, slopes);
+  reference::slope_fit(flat, 0, {20, 21}, kStep, 0.005f, all_of(in).view(), in.view(), slopes);
   EXPECT_EQ(slopes.row(20)[31].along_u, 0.005f) << "no steeper than allowed";
 }
 
@@ -319,7 +326,7 @@ TEST(ReferenceSlopes, NothingIsSaidWithoutAnEstimate) {
   for (int v = 0; v < 31; ++v)
     for (int u = 0; u < 31; ++u) in.row(v)[u] = u == 15 ? kNoEstimate : 0.01f * float(u);
   StripMap<Slope> slopes(31, {0, 31});
-  reference::slope_fit(flat, 0, {0, 31}, kStep, 0.3f, in, slopes);
+  reference::slope_fit(flat, 0, {0, 31}, kStep, 0.3f, all_of(in).view(), in.view(), slopes);
   EXPECT_EQ(slopes.row(15)[15].along_u, 0);
   EXPECT_GT(slopes.row(15)[16].along_u, 0.009f);
 }
@@ -345,7 +352,7 @@ struct Rays {
   StripMap<float> disparity, confidence;
   StripMap<Radiance> radiance;
   std::vector<PackedEstimate> estimates;
-  std::vector<float> bars;
+  bool are_finished = false;
 
   Rays(int width, std::vector<View> views)
       : width(width),
@@ -359,14 +366,15 @@ struct Rays {
   void propagate(const Band& band) {
     std::vector<int> active(views.size());
     for (int i = 0; i < int(active.size()); ++i) active[i] = i;
-    reference::propagation(band, EpiSampler(views), 0, {0, 1}, active, PropagationOptions{},
-                           disparity, confidence, radiance, {0, 1},
-                           bars.empty() ? nullptr : bars.data(), estimates.data());
-  }
-  /// All views are finished.
-  void finish() {
-    bars.clear();
-    for (const PackedEstimate own : estimates) bars.push_back(bar_of(own, 2));
+    const EpiSampler sampler(views);
+    const int finished = are_finished ? int(views.size()) : 0;
+    std::vector<float> bars(estimates.size());
+    const reference::StoredRows<float> all_bars{bars.data(), 0, int(views.size()), width};
+    const reference::StoredRows<PackedEstimate> all{estimates.data(), 0, int(views.size()), width};
+    reference::set_bars(sampler, 0, {0, 1}, active, disparity.view(), 1, {0, 1}, finished, 2, all,
+                        all_bars);
+    reference::propagation(band, sampler, 0, {0, 1}, active, PropagationOptions{}, disparity.view(),
+                           confidence.view(), radiance.view(), {0, 1}, finished, all_bars, all);
   }
   PackedEstimate at(int view, int u) const { return estimates[std::size_t(view) * width + u]; }
 };
@@ -397,7 +405,7 @@ TEST(ReferencePropagation, TheNearerStaysThenTheMoreConfident) {
   EXPECT_EQ(confidence_of(rays.at(1, 5)), 0.4f);
 }
 
-TEST(ReferencePropagation, AFinishedViewGivesUpForWhatIsNearerAndLeadsOverItsOwn) {
+TEST(ReferencePropagation, AFinishedViewGivesUpForWhatIsNearerAndLeads) {
   const Band flat = band_of(21, 1, 2, 3, [](int, int, int, int) { return 0.5; });
   Rays rays(21, {{"a", 0, 0}, {"b", 1, 0}});
   std::fill_n(rays.radiance.row(0), 21, Radiance{0.5f, 0.5f, 0.5f});
@@ -408,18 +416,29 @@ TEST(ReferencePropagation, AFinishedViewGivesUpForWhatIsNearerAndLeadsOverItsOwn
     rays.propagate(flat);
     return hypothesis_of(rays.at(1, 5));
   };
-  rays.finish();
+  rays.are_finished = true;
   EXPECT_EQ(arrive(1, 0.2f), 1);  // nothing was there
-  rays.finish();
   EXPECT_EQ(arrive(3, 0.4f), 1);  // nearer, but not more than twice as confident
   EXPECT_EQ(arrive(0, 0.9f), 1);  // confident, but farther
-  EXPECT_EQ(arrive(3, 0.6f), 3);
-  // What leads over its own estimate may be nearer than what came before it, too.
-  EXPECT_EQ(arrive(4, 0.5f), 4);
-  // An own estimate without confidence stays before another one without.
+  EXPECT_EQ(arrive(3, 0.5f), 3);
+  // An estimate without confidence stays before another one without.
   rays.estimates.assign(rays.estimates.size(), pack_estimate(1, 0));
-  rays.finish();
   EXPECT_EQ(arrive(3, 0), 1);
+}
+
+TEST(ReferencePropagation, WhatArrivesTogetherIsHeldAgainstWhatWasThereBefore) {
+  const Band flat = band_of(21, 1, 2, 3, [](int, int, int, int) { return 0.5; });
+  Rays rays(21, {{"a", 0, 0}, {"b", 1, 0}});
+  std::fill_n(rays.radiance.row(0), 21, Radiance{0.5f, 0.5f, 0.5f});
+  rays.are_finished = true;
+  rays.estimates[21 + 5] = pack_estimate(1, 0.1f);
+  // Both lead over what was there; the nearer of them stays though it does not lead over the other.
+  rays.disparity.row(0)[7] = 2;
+  rays.confidence.row(0)[7] = 0.3f;
+  rays.disparity.row(0)[8] = 3;
+  rays.confidence.row(0)[8] = 0.3f;
+  rays.propagate(flat);
+  EXPECT_EQ(hypothesis_of(rays.at(1, 5)), 3);
 }
 
 TEST(ReferencePropagation, AnOccluderIsSkippedAndTheWalkGoesOn) {

@@ -127,9 +127,9 @@ TEST(TupleStore, KeepsTheOrderInMemoryAndInAFile) {
   for (const std::string& folder : {std::string(), work.path.string()}) {
     TupleStore store(folder);
     for (int i = 0; i < kMany; ++i) {
-      RayTuple tuple;
-      tuple.u = i;
-      store.append(tuple);
+      std::vector<RayTuple> tuples(1);
+      tuples[0].u = i;
+      store.append(tuples);
     }
     EXPECT_EQ(store.size(), std::size_t(kMany));
     for (int pass = 0; pass < 2; ++pass) {
@@ -147,7 +147,7 @@ TEST(TupleStore, NoRoomIsAnErrorThatNamesTheFolder) {
   const FileSizeLimit limit(1 << 20);
   TupleStore store(work.path);
   expect_error(ErrorCode::kIo, {work.path}, [&] {
-    for (int i = 0; i < 3 << 20; ++i) store.append({});
+    for (int i = 0; i < 3 << 20; ++i) store.append(std::vector<RayTuple>(1));
   });
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Gigaray authors
-#include "src/search_bounds.h"
+#include "reference/search_bounds.h"
+
+#include "reference/masks.h"
 
 #include <gtest/gtest.h>
 
@@ -144,6 +146,10 @@ struct Holes {
         bounds.row(v)[u] = {0, 100};
       }
   }
+  void bound() {
+    bound_thin_holes({0, 40}, todo, open_mask(todo, {0, 40}, 40, kThinHole), estimates, kRange,
+                     bounds);
+  }
   void punch(int u, int width) {
     for (int v = 10; v < 30; ++v)
       for (int x = u; x < u + width; ++x) {
@@ -157,7 +163,7 @@ TEST(BoundThinHoles, AThinHoleIsSearchedBetweenTheEstimatesAroundIt) {
   Holes holes;
   holes.punch(10, 4);
   holes.punch(28, 3);
-  bound_thin_holes(holes.todo, holes.estimates, kRange, holes.bounds);
+  holes.bound();
   // A hypothesis every 0.05 from -2 on: 1 is number 60, 2 is number 80.
   EXPECT_EQ(holes.bounds.row(20)[11].first, 60 - 8);
   EXPECT_EQ(holes.bounds.row(20)[11].last, 60 + 8);
@@ -168,7 +174,7 @@ TEST(BoundThinHoles, AThinHoleIsSearchedBetweenTheEstimatesAroundIt) {
 TEST(BoundThinHoles, AWideHoleAndOtherPixelsKeepTheirBounds) {
   Holes holes;
   holes.punch(10, 9);
-  bound_thin_holes(holes.todo, holes.estimates, kRange, holes.bounds);
+  holes.bound();
   for (const int u : {5, 14, 40}) {
     EXPECT_EQ(holes.bounds.row(20)[u].first, 0);
     EXPECT_EQ(holes.bounds.row(20)[u].last, 100);
@@ -183,7 +189,7 @@ TEST(BoundThinHoles, NothingAroundLeavesTheFullRange) {
       holes.estimates.row(v)[u] = kNoEstimate;
       holes.todo.row(v)[u] = v == 20;
     }
-  bound_thin_holes(holes.todo, holes.estimates, kRange, holes.bounds);
+  holes.bound();
   EXPECT_EQ(holes.bounds.row(20)[30].last, 100);
 }
 

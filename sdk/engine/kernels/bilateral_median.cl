@@ -2,9 +2,8 @@
 // Copyright (c) 2026 The Gigaray authors
 // Bilateral median (eq. 8): the median of the estimates in a window, of pixels of a similar colour.
 // Of an even number the lower of the two middle values: no depth that was never tested.
-//   in   [row - in_begin][pitch], rows [in_begin, in_end): the strip and RADIUS rows on both sides,
-//        clipped to the picture; NaN: no estimate, does not count
-//   out  [row][pitch]; NaN where `in` has none
+//   in   [v][pitch]; NaN: no estimate, does not count
+//   out  [v][pitch]; NaN where `in` has none
 // One work-item per (block of LANES pixels, row); window: (2 RADIUS + 1)^2 vectors of local memory.
 
 #ifndef RADIUS
@@ -19,16 +18,16 @@ static inline vuint ordered(vint bits) { return VAS_UINT(bits ^ ((bits >> 31) | 
 
 __kernel void bilateral_median(__global const float* band, const BandParams p,
                                const StripParams strip, __global const float* in,
-                               const int in_begin, const float tolerance, __global float* out,
+                               const float tolerance, __global float* out,
                                __local vuint* window) {
   const int u = get_global_id(0) * LANES, row = get_global_id(1);
   if (u >= strip.width) return;
   const int v = strip.row_begin + row;
-  __global const float* centre = in + map_index(strip, v - in_begin, u);
+  __global const float* centre = in + view_index(strip, row, u);
   int any_estimate = 0;
   for (int lane = 0; lane < LANES && u + lane < p.width; ++lane)
     any_estimate |= !isnan(centre[lane]);
-  __global float* result = out + map_index(strip, row, u);
+  __global float* result = out + view_index(strip, row, u);
   if (!any_estimate) {
     VSTORE((vfloat)(NAN), result);
     return;
@@ -40,7 +39,7 @@ __kernel void bilateral_median(__global const float* band, const BandParams p,
   int size = 0;
   vint count = (vint)(0);
   for (int y = top; y <= bottom; ++y) {
-    __global const float* values = in + map_index(strip, y - in_begin, u);
+    __global const float* values = in + view_index(strip, y - strip.row_begin, u);
     for (int k = -RADIUS; k <= RADIUS; ++k) {
       const vfloat value = VLOAD(values + k);
       vint counts = x + k >= 0 && x + k < p.width && value == value;

@@ -69,9 +69,53 @@ typedef CONCAT(uint, LANES) vuint;
 #endif
 // VTRUE: a condition as 0 or -1 per lane, whatever LANES is.
 
-// Pixel u of a row of a map of the reference view.
+// Pixel u of a row of the strip, in a map that holds the strip alone
 static inline size_t map_index(const StripParams strip, int row, int u) {
   return (size_t)row * strip.pitch + GIGARAY_PAD + u;
+}
+// and in a map of the whole view.
+static inline size_t view_index(const StripParams strip, int row, int u) {
+  return map_index(strip, strip.row_begin + row, u);
+}
+
+static inline ulong packed_estimate(float h, float confidence) {
+  const uint bits = as_uint(h);
+  const uint key = bits & 0x80000000u ? ~bits : bits | 0x80000000u;
+  return (ulong)key << 32 | as_uint(fmax(confidence, 0.0f));
+}
+
+// Hypotheses as the host counts them, where the device can: rounding must not decide which are tested.
+#ifndef FP64
+#define FP64 0
+#endif
+#if FP64
+#pragma OPENCL EXTENSION cl_khr_fp64 : enable
+typedef double real_t;
+#else
+typedef float real_t;
+#endif
+typedef struct {
+  real_t min, step;
+  int count;
+} HypothesisReals;
+
+static inline real_t hypothesis_place(const HypothesisReals hypotheses, float h) {
+  return clamp(((real_t)h - hypotheses.min) / hypotheses.step, (real_t)0,
+               (real_t)(hypotheses.count - 1));
+}
+
+// The hypotheses from below `low` to above `high`, and `margin` more on both sides.
+static inline ushort2 hypotheses_between(const HypothesisReals hypotheses, float low, float high,
+                                         int margin) {
+  const int first = (int)floor(hypothesis_place(hypotheses, low)) - margin;
+  const int last = (int)ceil(hypothesis_place(hypotheses, high)) + margin;
+  return (ushort2)(max(first, 0), min(last, hypotheses.count - 1));
+}
+
+static inline float hypothesis_value(const HypothesisReals hypotheses, int i) {
+#pragma OPENCL FP_CONTRACT OFF
+  const real_t rise = i * hypotheses.step;
+  return (float)(hypotheses.min + rise);
 }
 
 // Hypothesis 0 of pixel u of a row of a score volume. GIGARAY_PAD floats before and after the volume
@@ -199,11 +243,12 @@ static inline vfloat colour_distance2(__global const float* a, __global const fl
 }
 
 // First and last hypothesis that any pixel of a block wants tested; last is -1 when none is to do.
+// todo, bounds: maps of the whole view.
 static inline int2 block_bounds(__global const uchar* todo, __global const ushort2* bounds,
                                 const StripParams strip, int row, int u, LaneBounds* tested) {
   int2 block = (int2)(INT_MAX, -1);
   for (int lane = 0; lane < LANES; ++lane) {
-    const size_t i = map_index(strip, row, u + lane);
+    const size_t i = view_index(strip, row, u + lane);
     const int to_do = u + lane < strip.width && todo[i];
     tested->first[lane] = to_do ? (int)bounds[i].x : INT_MAX;
     tested->last[lane] = to_do ? (int)bounds[i].y : -1;

@@ -3,8 +3,8 @@
 // Density score (eq. 3-5): how densely the colours that all views see under a hypothesis lie around
 // the mean that mean-shift finds from the reference pixel's colour; Epanechnikov kernel.
 //   band    [row][view][channel][stride]
-//   todo    [row][pitch] bytes, 0: nothing to do; a block of LANES zeros costs nothing
-//   bounds  [row][pitch] (first, last) hypothesis to test
+//   todo    [v][pitch] bytes, 0: nothing to do; a block of LANES zeros costs nothing
+//   bounds  [v][pitch] (first, last) hypothesis to test
 //   ways    SHIFT_ALIKE 1: [hypothesis][view], from block_shifts; 0: the ray table
 //   source  where samples come from: the band, or its taps (SHIFT_ALIKE 0)
 //   scores  [row][u][hypothesis]; -1 where too few views see the point. Hypotheses outside the
@@ -230,23 +230,29 @@ __kernel void density_score(__global const float* band, __global const float* so
 // The same for pixels that stand alone, LANES of them together: most pixels of a view are known already
 // when its turn comes. The samples are fetched one by one; what follows is the same arithmetic, and
 // every pixel gets the same bits.
-//   packed  [block][2][LANES] rows (counted from the strip's first), columns
-// One work-item per block.
+//   packed  [pixel][2] row (counted from the strip's first), column
+//   places  [rows + 1] from pack_lonely; the last is the number of pixels
+// One work-item per block of LANES pixels, the last pixel again in lanes beyond the end.
 __kernel void density_score_packed(
     __global const float* band, const BandParams p, const StripParams strip,
     __global const BlockShift* shifts, const HypothesisParams hypotheses,
-    __global const int* packed, const int blocks, __global const ushort2* bounds,
+    __global const int* packed, __global const int* places, __global const ushort2* bounds,
     const float bandwidth, const int min_views, const float floor_views, __global float* scores,
     __local vfloat* staged) {
-  if ((int)get_global_id(0) >= blocks) return;
-  __global const int* rows = packed + get_global_id(0) * 2 * LANES;
-  __global const int* columns = rows + LANES;
+  const int begin = get_global_id(0) * LANES, size = places[strip.row_end - strip.row_begin];
+  if (begin >= size) return;
+  int rows[LANES], columns[LANES];
+  for (int lane = 0; lane < LANES; ++lane) {
+    const int i = min(begin + lane, size - 1);
+    rows[lane] = packed[2 * i];
+    columns[lane] = packed[2 * i + 1];
+  }
 
   int first = hypotheses.count, last = -1;
   ushort2 tested[LANES];
   float own[3][LANES];
   for (int lane = 0; lane < LANES; ++lane) {
-    tested[lane] = bounds[map_index(strip, rows[lane], columns[lane])];
+    tested[lane] = bounds[view_index(strip, rows[lane], columns[lane])];
     first = min(first, (int)tested[lane].x);
     last = max(last, (int)tested[lane].y);
     __global const float* here =

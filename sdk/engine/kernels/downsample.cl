@@ -3,7 +3,8 @@
 // One pyramid level down (section 4.5): 7 x 7 Gaussian of sigma sqrt(0.5), then every second pixel,
 // so that pixel i stands for pixel 2 i. Edge pixels are repeated.
 //   band   rows of the fine level
-//   small  [row - small_begin][view][3][small_width], rows [small_begin, small_end)
+//   small  [v - stored_begin][stored view][3][small_width]; the views of the band are those from `first`
+//          on, the work-items' rows begin at small_begin
 // One work-item per (block of LANES small pixels, row of the small level, view).
 
 __constant float GAUSSIAN[7] = {6.96193329e-05f, 1.03324251e-02f, 2.07532307e-01f,
@@ -24,10 +25,12 @@ static inline float smooth_pixel(__global const float* const* rows, int u) {
 }
 
 __kernel void downsample(__global const float* band, const BandParams p, const int small_width,
-                         const int small_begin, __global float* small) {
+                         const int small_begin, const int stored_begin, const int stored_views,
+                         const int first, __global float* small) {
   const int u = get_global_id(0) * LANES, row = get_global_id(1), view = get_global_id(2);
   if (u >= small_width) return;
-  __global float* out = small + ((size_t)row * p.num_views + view) * 3 * small_width;
+  __global float* out = small + ((size_t)(small_begin + row - stored_begin) * stored_views +
+                                         first + view) * 3 * small_width;
   for (int c = 0; c < 3; ++c) {
     __global const float* rows[7];
     for (int y = 0; y < 7; ++y) {

@@ -2,8 +2,8 @@
 // Copyright (c) 2026 The Gigaray authors
 // Mean radiance (eq. 5) of accepted estimates: the colour that a tuple carries and that propagation
 // compares with.
-//   disparity  [row][pitch]; NaN: not accepted, nothing is written
-//   radiance   [row][pitch][3]
+//   disparity  [v][pitch]; NaN: not accepted, nothing is written
+//   radiance   [v][pitch][3]
 //   staged     local memory, 3 vectors per view: the samples, see density_score (STAGE 1)
 // One work-item per (block of LANES pixels, row). Samples are linearly interpolated; ITERATIONS as in
 // density_score, at least one.
@@ -64,7 +64,7 @@ __kernel void mean_radiance(__global const float* band, const BandParams p, cons
   float h[LANES];
   int any_estimate = 0;
   for (int lane = 0; lane < LANES; ++lane) {
-    h[lane] = u + lane < p.width ? disparity[map_index(strip, row, u + lane)] : NAN;
+    h[lane] = u + lane < p.width ? disparity[view_index(strip, row, u + lane)] : NAN;
     any_estimate |= !isnan(h[lane]);
   }
   if (!any_estimate) return;
@@ -105,5 +105,5 @@ __kernel void mean_radiance(__global const float* band, const BandParams p, cons
   for (int lane = 0; lane < LANES; ++lane)
     if (!isnan(h[lane]))
       for (int c = 0; c < 3; ++c)
-        radiance[3 * map_index(strip, row, u + lane) + c] = values[c][lane];
+        radiance[3 * view_index(strip, row, u + lane) + c] = values[c][lane];
 }

@@ -3,8 +3,9 @@
 // The reference view without its own noise: the colour of a pixel becomes the mean over the views along
 // its ray, each weighed by the triangle kernel of its colour around the pixel's own.
 //   band       [row][view][CHANNELS][stride]
-//   disparity  [row][pitch]; NaN: the pixel stays as it is
-//   means      [row][CHANNELS][stride], the layout of a band with one view; gradients are not written
+//   wanted     [v][pitch] bytes; 0: the pixel stays as it is
+//   disparity  [v][pitch]; NaN: the same
+//   means      [v][CHANNELS][stride], the layout of a band with one view; gradients are not written
 // One work-item per pixel; vectors hold the four taps of a row.
 
 static inline float4 ray_taps(float f) {
@@ -16,7 +17,8 @@ static inline float4 ray_taps(float f) {
 }
 
 __kernel void ray_mean(__global const float* band, const BandParams p, const StripParams strip,
-                       __global const float* rays, __global const float* disparity,
+                       __global const float* rays, __global const uchar* wanted,
+                       __global const float* disparity,
                        const float bandwidth, __global float* means) {
   const int u = get_global_id(0), row = get_global_id(1), v = strip.row_begin + row;
   if (u >= strip.width) return;
@@ -26,8 +28,9 @@ __kernel void ray_mean(__global const float* band, const BandParams p, const Str
     own[c] = here[c * p.stride];
     sum[c] = 0.0f;
   }
-  const float d = disparity[map_index(strip, row, u)];
-  const int num_views = isnan(d) ? 0 : p.num_views;
+  const size_t pixel = view_index(strip, row, u);
+  const float d = disparity[pixel];
+  const int num_views = isnan(d) || !wanted[pixel] ? 0 : p.num_views;
   for (int k = 0; k < num_views; ++k) {
     float x, y, d_other, fx, fy;
     if (!locate(rays, k, u, v, d, &x, &y, &d_other)) continue;
@@ -56,7 +59,7 @@ __kernel void ray_mean(__global const float* band, const BandParams p, const Str
     UNROLL
     for (int c = 0; c < 3; ++c) sum[c] += w * sample[c];
   }
-  __global float* out = means + (size_t)row * CHANNELS * p.stride + GIGARAY_PAD + u;
+  __global float* out = means + (size_t)v * CHANNELS * p.stride + GIGARAY_PAD + u;
   UNROLL
   for (int c = 0; c < 3; ++c) out[c * p.stride] = weights > 0.0f ? sum[c] / weights : own[c];
 }

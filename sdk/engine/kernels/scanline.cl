@@ -8,7 +8,7 @@
 // depends on rows nearby only. A path begins anew after a pixel that is not to do.
 //   scores      [row - scores_begin][u][hypothesis], the strip and SCANLINE_REACH rows on both sides,
 //               clipped to the picture
-//   todo        [row - scores_begin][pitch]
+//   todo        [v][pitch]
 //   aggregated  [row - scores_begin][u][hypothesis], rows of the strip: set by the first direction,
 //               others add to it (`add`)
 //   states      local memory, 2 (pitch + 2 MARGIN) floats
@@ -70,7 +70,7 @@ __kernel void scanline(__global const float* band, const BandParams p, const Str
   float best_before = 0.0f;
   int begins = 1;
   for (; u != end_u || v != end_v; u += du, v += dv) {
-    if (!todo[map_index(strip, v - scores_begin, u)]) {
+    if (!todo[view_index(strip, v - strip.row_begin, u)]) {
       begins = 1;
       continue;
     }

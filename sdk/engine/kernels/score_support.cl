@@ -7,7 +7,7 @@
 //   A(p, d) = sum_q w(p, q) S(q, d + slope · (q - p)) / sum_q w(p, q)
 //   scores     [row - scores_begin][u][hypothesis]: the strip and RADIUS rows on both sides, clipped to
 //              the picture
-//   slopes     [row][pitch] (along u, along v), hypothesis units per px
+//   slopes     [v][pitch] (along u, along v), hypothesis units per px
 //   supported  [row][u][hypothesis]
 //   todo, bounds as for density_score
 // One work-item per pixel; lanes are hypotheses.
@@ -51,8 +51,8 @@ __kernel void score_support(__global const float* band, const BandParams p, cons
                             const int scores_begin, const float sigma_colour,
                             const float sigma_space, __global float* supported) {
   const int u = get_global_id(0), row = get_global_id(1), v = strip.row_begin + row;
-  if (u >= strip.width || !todo[map_index(strip, row, u)]) return;
-  const ushort2 tested = bounds[map_index(strip, row, u)];
+  if (u >= strip.width || !todo[view_index(strip, row, u)]) return;
+  const ushort2 tested = bounds[view_index(strip, row, u)];
   const int top = max(v - RADIUS, 0), bottom = min(v + RADIUS, p.height - 1);
   const int left = max(u - RADIUS, 0), right = min(u + RADIUS, p.width - 1);
   float weights[WINDOW * WINDOW_PITCH];
@@ -94,14 +94,14 @@ __kernel void slanted_support(__global const float* band, const BandParams p,
                               const int scores_begin, const float sigma_colour,
                               const float sigma_space, __global float* supported) {
   const int u = get_global_id(0), row = get_global_id(1), v = strip.row_begin + row;
-  if (u >= strip.width || !todo[map_index(strip, row, u)]) return;
-  const ushort2 tested = bounds[map_index(strip, row, u)];
+  if (u >= strip.width || !todo[view_index(strip, row, u)]) return;
+  const ushort2 tested = bounds[view_index(strip, row, u)];
   const int top = max(v - RADIUS, 0), bottom = min(v + RADIUS, p.height - 1);
   const int left = max(u - RADIUS, 0), right = min(u + RADIUS, p.width - 1);
   float weights[WINDOW * WINDOW_PITCH];
   const float scale = 1.0f / support_weights(band, p, strip, u, v, top, bottom, sigma_colour,
                                              sigma_space, weights);
-  const float2 slope = vload2(map_index(strip, row, u), slopes) / hypotheses.step;
+  const float2 slope = vload2(view_index(strip, row, u), slopes) / hypotheses.step;
 
   __global float* out = supported + score_index(strip, hypotheses, row, u);
   for (int i = lanes_floor(tested.x); i <= tested.y; i += LANES) {

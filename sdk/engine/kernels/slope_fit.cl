@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Gigaray authors
 // Slope of the surface at a pixel: a robust plane through its estimate and those around it.
-//   in      [row - in_begin][pitch] estimates, rows [in_begin, in_end): the strip and REACH rows on
-//           both sides, clipped to the picture; NaN: does not count
-//   slopes  [row][pitch] (along u, along v), hypothesis units per px; 0 where nothing can be said
+//   todo    [v][pitch] bytes; a block of LANES zeros is left out
+//   in      [v][pitch] estimates; NaN: does not count
+//   slopes  [v][pitch] (along u, along v), hypothesis units per px; 0 where nothing can be said
 // One work-item per (block of LANES pixels, row). Weights: Gaussians of colour and distance, times
 // Tukey's biweight of the residual, with ever smaller scale.
 
@@ -16,14 +16,18 @@
 __constant float RESIDUAL_SCALE[3] = {12.0f, 6.0f, 3.0f};  // hypotheses
 
 __kernel void slope_fit(__global const float* band, const BandParams p, const StripParams strip,
-                        __global const float* in, const int in_begin, const float step,
+                        __global const uchar* todo, __global const float* in, const float step,
                         const float max_slope,
                         __global float* slopes) {
   const int u = get_global_id(0) * LANES, row = get_global_id(1);
   if (u >= strip.width) return;
   const int v = strip.row_begin + row;
+  int any_todo = 0;
+  for (int lane = 0; lane < LANES && u + lane < strip.width; ++lane)
+    any_todo |= todo[view_index(strip, row, u + lane)];
+  if (!any_todo) return;
   __global const float* here = band_row(band, p, strip.ref, v) + u;
-  const vfloat own = VLOAD(in + map_index(strip, v - in_begin, u));
+  const vfloat own = VLOAD(in + view_index(strip, row, u));
   const vint x = u + VLANES;
 
   vfloat slope_u = (vfloat)(0.0f), slope_v = (vfloat)(0.0f);
@@ -37,7 +41,7 @@ __kernel void slope_fit(__global const float* band, const BandParams p, const St
       __global const float* there = band_row(band, p, strip.ref, y) + u;
       for (int i = -SAMPLES; i <= SAMPLES; ++i) {
         const float du = STRIDE * i, dv = STRIDE * j;
-        const vfloat rise = VLOAD(in + map_index(strip, y - in_begin, u) + STRIDE * i) - own;
+        const vfloat rise = VLOAD(in + view_index(strip, y - strip.row_begin, u) + STRIDE * i) - own;
         const vfloat residual = (rise - slope_u * du - slope_v * dv) * inverse_scale;
         const vfloat d2 = colour_distance2(there + STRIDE * i, here, p.stride);
         const float space = (du * du + dv * dv) / (2.0f * SIGMA_SPACE * SIGMA_SPACE);
@@ -60,7 +64,7 @@ __kernel void slope_fit(__global const float* band, const BandParams p, const St
   }
   // Two values per pixel: (u, v) pairs.
   for (int lane = 0; lane < LANES && u + lane < strip.width; ++lane) {
-    __global float* out = slopes + 2 * map_index(strip, row, u + lane);
+    __global float* out = slopes + 2 * view_index(strip, row, u + lane);
 #if LANES == 1
     out[0] = slope_u;
     out[1] = slope_v;

@@ -2,8 +2,9 @@
 // Copyright (c) 2026 The Gigaray authors
 // Turns decoded rows into the planes of a band: colours through a look-up table, gradients of the
 // channel mean, padding.
-//   encoded  [row][view][u][3], SOURCE integers (level 0), through lut; or
-//            [row][view][3][u] floats in the working colour space (level 1 and above)
+//   encoded  [v - encoded_begin][stored view][u][3], SOURCE integers (level 0), through lut; or
+//            [v - encoded_begin][stored view][3][u] floats in the working colour space (level 1 on)
+//   at       [view] which of the stored views it is
 //   band     [row][view][CHANNELS][stride]
 // Work-group shape: none; one work-item per (view, row).
 
@@ -18,10 +19,12 @@ typedef ushort source_t;
 typedef float source_t;
 #endif
 
-__kernel void unpack_colours(__global const source_t* encoded, __global const float* lut,
-                             const BandParams p, __global float* band) {
+__kernel void unpack_colours(__global const source_t* encoded, const int encoded_begin,
+                             const int stored_views, __global const int* at,
+                             __global const float* lut, const BandParams p, __global float* band) {
   const int view = get_global_id(0), row = get_global_id(1);
-  __global const source_t* in = encoded + ((size_t)row * p.num_views + view) * 3 * p.width;
+  const size_t line = (size_t)(p.row_begin + row - encoded_begin) * stored_views + at[view];
+  __global const source_t* in = encoded + line * 3 * p.width;
   __global float* out = band + ((size_t)row * p.num_views + view) * CHANNELS * p.stride;
   for (int c = 0; c < 3; ++c) {
     __global float* plane = out + c * p.stride + GIGARAY_PAD;
@@ -37,14 +40,18 @@ __kernel void unpack_colours(__global const source_t* encoded, __global const fl
   }
 }
 
-// mask: [row][view][u], 0: the pixel shows nothing of the scene.
-__kernel void mask_pixels(__global const uchar* mask, const float masked_colour, const BandParams p,
-                          __global float* band) {
+// shown: [(v << shift) - shown_begin][stored view][shown_width], 0: the pixel shows nothing of the
+// scene.
+__kernel void mask_pixels(__global const uchar* shown, const int shown_begin, const int shown_width,
+                          const int shift, const int stored_views, __global const int* at,
+                          const float masked_colour, const BandParams p, __global float* band) {
   const int view = get_global_id(0), row = get_global_id(1);
-  __global const uchar* in = mask + ((size_t)row * p.num_views + view) * p.width;
+  const size_t line =
+      (size_t)(((p.row_begin + row) << shift) - shown_begin) * stored_views + at[view];
+  __global const uchar* in = shown + line * shown_width;
   __global float* out = band + ((size_t)row * p.num_views + view) * CHANNELS * p.stride + GIGARAY_PAD;
   for (int u = 0; u < p.width; ++u)
-    if (in[u] == 0)
+    if (in[(size_t)u << shift] == 0)
       for (int c = 0; c < 3; ++c) out[c * p.stride + u] = masked_colour;
 }
 

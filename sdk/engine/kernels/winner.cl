@@ -21,11 +21,11 @@ __kernel void winner(const StripParams strip, const HypothesisParams hypotheses,
                      __global float* contrast) {
   const int u = get_global_id(0), row = get_global_id(1);
   if (u >= strip.width) return;
-  const size_t pixel = map_index(strip, row, u);
+  const size_t pixel = map_index(strip, row, u), in_view = view_index(strip, row, u);
   disparity[pixel] = NAN;
   contrast[pixel] = 0.0f;
-  if (!todo[pixel]) return;
-  const int first = bounds[pixel].x, last = bounds[pixel].y;
+  if (!todo[in_view]) return;
+  const int first = bounds[in_view].x, last = bounds[in_view].y;
   const size_t at = score_index(strip, hypotheses, strip.row_begin + row - scores_begin, u);
   __global const float* choice = chosen_by + at;
   __global const float* score = scores + at;
@@ -76,19 +76,20 @@ __kernel void winner(const StripParams strip, const HypothesisParams hypotheses,
 }
 
 // The score of the hypothesis next to an estimate.
-//   disparity  [row][pitch], NaN: no estimate
+//   disparity  [v - disparity_begin][pitch], NaN: no estimate
 //   out        [row][pitch], NaN where there is no estimate or nothing to do
 // One work-item per pixel.
 __kernel void score_of_estimate(const StripParams strip, const HypothesisParams hypotheses,
                                 __global const uchar* todo, __global const float* scores,
                                 const int scores_begin, __global const float* disparity,
-                                __global float* out) {
+                                const int disparity_begin, __global float* out) {
   const int u = get_global_id(0), row = get_global_id(1);
   if (u >= strip.width) return;
   const size_t pixel = map_index(strip, row, u);
   out[pixel] = NAN;
-  if (!todo[pixel] || isnan(disparity[pixel])) return;
-  const int i = clamp((int)rint((disparity[pixel] - hypotheses.min) / hypotheses.step), 0,
+  const float h = disparity[map_index(strip, strip.row_begin + row - disparity_begin, u)];
+  if (!todo[view_index(strip, row, u)] || isnan(h)) return;
+  const int i = clamp((int)rint((h - hypotheses.min) / hypotheses.step), 0,
                       hypotheses.count - 1);
   out[pixel] =
       scores[score_index(strip, hypotheses, strip.row_begin + row - scores_begin, u) + i];

@@ -110,11 +110,11 @@ void Buffer::write_bytes(const void* data, std::size_t bytes, std::size_t offset
       clEnqueueWriteBuffer(queue_.get(), get(), CL_TRUE, offset, bytes, data, 0, nullptr, nullptr));
 }
 
-void Buffer::read_bytes(void* data, std::size_t bytes, std::size_t offset) const {
+void Buffer::read_bytes(void* data, std::size_t bytes, std::size_t offset, cl_bool blocking) const {
   GIGARAY_CHECK(offset <= bytes_ && bytes <= bytes_ - offset);
   if (bytes == 0) return;
   GIGARAY_CL(
-      clEnqueueReadBuffer(queue_.get(), get(), CL_TRUE, offset, bytes, data, 0, nullptr, nullptr));
+      clEnqueueReadBuffer(queue_.get(), get(), blocking, offset, bytes, data, 0, nullptr, nullptr));
 }
 
 void Buffer::clear() {
@@ -139,7 +139,7 @@ Mapping::~Mapping() {
 }
 
 Kernel::Kernel(const Device& device, const Program& program, const std::string& name)
-    : queue_(device.queue()), name_(name) {
+    : queue_(device.queue()), log_(device.log()), name_(name) {
   cl_int error = CL_SUCCESS;
   kernel_ = Object(clCreateKernel(program.get(), name.c_str(), &error));
   check_cl(error, "clCreateKernel of " + name);
@@ -163,13 +163,19 @@ void Kernel::enqueue(const WorkSize& global, const WorkSize& local, cl_event* ev
 }
 
 void Kernel::run(const WorkSize& global, const WorkSize& local) const {
-  enqueue(global, local, nullptr);
+  if (!log_) {
+    enqueue(global, local, nullptr);
+    return;
+  }
+  cl_event raw = nullptr;
+  enqueue(global, local, &raw);
+  log_->add(Event(raw));
 }
 
 double Kernel::run_timed(const WorkSize& global, const WorkSize& local) const {
   cl_event raw = nullptr;
   enqueue(global, local, &raw);
-  const Handle<cl_event, clRetainEvent, clReleaseEvent> event(raw);
+  const Event event(raw);
   GIGARAY_CL(clWaitForEvents(1, &raw));
   cl_ulong begin = 0;
   cl_ulong end = 0;

@@ -50,7 +50,11 @@ class Buffer {
   template <class T>
   void read(std::span<T> data, std::size_t offset = 0) const {
     static_assert(std::is_trivially_copyable_v<T> && !std::is_const_v<T>);
-    read_bytes(data.data(), data.size_bytes(), offset);
+    read_bytes(data.data(), data.size_bytes(), offset, CL_TRUE);
+  }
+  /// Does not block: what is read is there when a later command has been waited for.
+  void read_later(std::span<std::byte> data) const {
+    read_bytes(data.data(), data.size_bytes(), 0, CL_FALSE);
   }
 
   /// Sets every byte to 0. Does not block.
@@ -61,7 +65,7 @@ class Buffer {
   using Memory = Handle<cl_mem, clRetainMemObject, clReleaseMemObject>;
 
   void write_bytes(const void* data, std::size_t bytes, std::size_t offset);
-  void read_bytes(void* data, std::size_t bytes, std::size_t offset) const;
+  void read_bytes(void* data, std::size_t bytes, std::size_t offset, cl_bool blocking) const;
 
   Memory memory_;
   Queue queue_;
@@ -151,6 +155,7 @@ class Kernel {
 
   Object kernel_;
   Queue queue_;
+  std::shared_ptr<EventLog> log_;
   std::string name_;
 };
 

@@ -231,6 +231,7 @@ Device Device::open(const std::string& selection, Profiling profiling) {
   device.info_ = std::move(info);
   device.id_ = id;
   device.profiling_ = profiling == Profiling::kOn;
+  if (device.profiling_) device.log_ = std::make_shared<EventLog>();
   cl_int error = CL_SUCCESS;
   device.context_ = Context(clCreateContext(nullptr, 1, &id, nullptr, nullptr, &error));
   check_cl(error, "clCreateContext on " + device.info_.name);

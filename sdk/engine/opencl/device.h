@@ -2,58 +2,15 @@
 // Copyright (c) 2026 The Gigaray authors
 #pragma once
 
-#define CL_TARGET_OPENCL_VERSION 120
-#include <CL/cl.h>
-
 #include <map>
+#include <memory>
 #include <string>
-#include <utility>
 
 #include "gigaray/device.h"
+#include "opencl/event_log.h"
+#include "opencl/handle.h"
 
 namespace gigaray::opencl {
-
-/// "CL_OUT_OF_RESOURCES (-5)"
-std::string error_name(cl_int error);
-
-/// Throws unless `error` is CL_SUCCESS: Error(kOutOfMemory) when an allocation failed, else
-/// Error(kDevice), with `what` (the text of the call, or a sentence) and the error's name.
-void check_cl(cl_int error, const std::string& what);
-
-/// GIGARAY_CL(clFinish(queue)); throws with the text of the call when it fails.
-#define GIGARAY_CL(call)                                                        \
-  do {                                                                          \
-    if (const cl_int gigaray_cl_error = (call); gigaray_cl_error != CL_SUCCESS) \
-      ::gigaray::opencl::check_cl(gigaray_cl_error, #call);                     \
-  } while (false)
-
-/// Shared ownership of an OpenCL object by its own reference count.
-template <class T, auto Retain, auto Release>
-class Handle {
- public:
-  Handle() = default;
-  explicit Handle(T object) : object_(object) {}  ///< Takes over the reference.
-  Handle(const Handle& other) : object_(other.object_) {
-    if (object_) Retain(object_);
-  }
-  Handle(Handle&& other) noexcept : object_(std::exchange(other.object_, nullptr)) {}
-  Handle& operator=(Handle other) noexcept {
-    std::swap(object_, other.object_);
-    return *this;
-  }
-  ~Handle() {
-    if (object_) Release(object_);
-  }
-  T get() const { return object_; }
-  explicit operator bool() const { return object_ != nullptr; }
-
- private:
-  T object_ = nullptr;
-};
-
-using Context = Handle<cl_context, clRetainContext, clReleaseContext>;
-using Queue = Handle<cl_command_queue, clRetainCommandQueue, clReleaseCommandQueue>;
-using Program = Handle<cl_program, clRetainProgram, clReleaseProgram>;
 
 /// How the programs of a device came about.
 struct ProgramCounters {
@@ -69,8 +26,8 @@ enum class Profiling : bool { kOff, kOn };
 /// on the same hardware, may be used in parallel.
 class Device {
  public:
-  /// selection: see select_device(). Profiling makes Kernel::run_timed() possible and costs a
-  /// little time for every command. Throws Error(kDevice).
+  /// selection: see select_device(). Profiling makes Kernel::run_timed() and log() possible and
+  /// costs a little time for every command. Throws Error(kDevice).
   static Device open(const std::string& selection = "", Profiling profiling = Profiling::kOff);
 
   Device(Device&&) = default;
@@ -81,6 +38,8 @@ class Device {
   const Context& context() const { return context_; }
   const Queue& queue() const { return queue_; }
   bool profiling() const { return profiling_; }
+  /// Where commands are noted; null without profiling.
+  const std::shared_ptr<EventLog>& log() const { return log_; }
 
   void finish() const;  ///< Waits until all commands are done.
 
@@ -96,6 +55,7 @@ class Device {
   bool profiling_ = false;
   Context context_;
   Queue queue_;
+  std::shared_ptr<EventLog> log_;
   std::map<std::string, Program> programs_;
   ProgramCounters counters_;
 };

@@ -8,6 +8,13 @@ namespace gigaray::opencl {
 
 Kernel KernelSet::build(const std::string& file, const std::string& entry,
                         const std::string& options) {
+  if (file == kMapSteps) {
+    const SourcePart parts[] = {{"kernel_params.h", kernel_source("kernel_params.h")},
+                                {"common.cl", kernel_source("common.cl")},
+                                {"masks.cl", kernel_source("masks.cl")},
+                                {"estimates.cl", kernel_source("estimates.cl")}};
+    return Kernel(device_, build_program(device_, parts, options), entry);
+  }
   const std::string kernel_file = file + ".cl";
   const SourcePart parts[] = {{"kernel_params.h", kernel_source("kernel_params.h")},
                               {"common.cl", kernel_source("common.cl")},

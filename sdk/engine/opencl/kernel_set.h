@@ -6,14 +6,17 @@
 #include <string>
 
 #include "opencl/lane_kernel.h"
-#include "opencl/opencl_backend.h"
+#include "opencl/opencl_workspace.h"
 
 namespace gigaray::opencl {
 
 /// Local memory of density_score per view, see there; mean_radiance takes 3.
 inline constexpr int kStagedVectors = 4;
 
-/// The kernels of one backend, joined with its sampler's twin, each built when first asked for.
+/// masks.cl and estimates.cl in one program, which knows no sampler.
+inline constexpr const char* kMapSteps = "map steps";
+
+/// The kernels of one workspace, joined with its sampler's twin, each built when first asked for.
 class KernelSet {
  public:
   /// sampler_file: a file of samplers/kernels. common: options of every kernel.

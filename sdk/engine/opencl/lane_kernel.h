@@ -5,9 +5,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <string>
-#include <vector>
 
-#include "gigaray/backend.h"
 #include "opencl/buffer.h"
 
 namespace gigaray::opencl {
@@ -55,9 +53,5 @@ struct Scratch {
 inline std::string define(const std::string& name, int value) {
   return " -D" + name + "=" + std::to_string(value);
 }
-
-/// Moves the pixels of blocks that are less than half full out of `todo` and puts `lanes` of them
-/// together, as density_score_packed takes them.
-std::vector<int> pack_sparse_blocks(RowRange rows, int lanes, StripMap<std::uint8_t>& todo);
 
 }  // namespace gigaray::opencl

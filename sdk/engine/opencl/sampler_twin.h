@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "gigaray/backend.h"
 #include "src/view_sets.h"
+#include "src/workspace.h"
 
 namespace gigaray::opencl {
 

@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "gigaray/backend.h"
+#include "src/workspace.h"
 
 namespace gigaray::reference {
 

@@ -5,7 +5,7 @@
 namespace gigaray::reference {
 
 void bilateral_median(const Band& band, int ref, RowRange rows, int radius, float tolerance,
-                      const StripMap<float>& in, StripMap<float>& out) {
+                      MapView<const float> in, MapView<float> out) {
   const bool bilateral = std::isfinite(tolerance);
   std::vector<float> window;
   for (int v = rows.begin; v < rows.end; ++v) {

@@ -9,6 +9,6 @@ namespace gigaray::reference {
 /// Median of the estimates of similar colour in a window (eq. 8); of an even number the lower
 /// middle.
 void bilateral_median(const Band& band, int ref, RowRange rows, int radius, float tolerance,
-                      const StripMap<float>& in, StripMap<float>& out);
+                      MapView<const float> in, MapView<float> out);
 
 }  // namespace gigaray::reference

@@ -7,7 +7,7 @@
 namespace gigaray::reference {
 
 void edge_confidence(const Band& band, int ref, RowRange rows, const EdgeOptions& options,
-                     bool both_axes, StripMap<float>& confidence) {
+                     bool both_axes, MapView<float> confidence) {
   const auto is_masked = [](const Sample& pixel) {
     return std::abs(pixel[0] - 0.5F) > kMaskedBeyond;
   };

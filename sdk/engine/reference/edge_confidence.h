@@ -8,6 +8,6 @@ namespace gigaray::reference {
 
 /// Edge confidence Ce (eq. 2) along u and, with both_axes, along v; the larger counts.
 void edge_confidence(const Band& band, int ref, RowRange rows, const EdgeOptions& options,
-                     bool both_axes, StripMap<float>& confidence);
+                     bool both_axes, MapView<float> confidence);
 
 }  // namespace gigaray::reference

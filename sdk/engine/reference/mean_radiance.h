@@ -9,8 +9,8 @@ namespace gigaray::reference {
 /// Mean radiance r̄ (eq. 5) of every accepted estimate (not NaN) of the strip.
 template <RaySampler S>
 void mean_radiance(const Band& band, const S& sampler, int ref, RowRange rows,
-                   const ScoreOptions& options, const StripMap<float>& disparity,
-                   StripMap<Radiance>& radiance) {
+                   const ScoreOptions& options, MapView<const float> disparity,
+                   MapView<Radiance> radiance) {
   for (int v = rows.begin; v < rows.end; ++v) {
     for (int u = 0; u < disparity.width(); ++u) {
       const float h = disparity.row(v)[u];

@@ -10,8 +10,7 @@ namespace gigaray::reference {
 /// holds channel c of row v; gradients are left alone. NaN disparity: the pixel stays as it is.
 template <RaySampler S>
 void ray_mean(const Band& band, const S& sampler, int ref, RowRange rows,
-              const ScoreOptions& options, const StripMap<float>& disparity,
-              StripMap<float>& means) {
+              const ScoreOptions& options, MapView<const float> disparity, MapView<float> means) {
   for (int v = rows.begin; v < rows.end; ++v)
     for (int u = 0; u < band.shape.width; ++u) {
       const Sample own = band.pixel(ref, u, v);

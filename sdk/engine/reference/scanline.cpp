@@ -13,7 +13,7 @@ struct Pixel {
 
 /// Follows pixels begin, begin + (du, dv), … `count` of them; adds to `sum` in `keep`.
 void follow(const Band& band, int ref, const SupportOptions& options,
-            const StripMap<std::uint8_t>& todo, const Scores& scores, Pixel at, int du, int dv,
+            MapView<const std::uint8_t> todo, const Scores& scores, Pixel at, int du, int dv,
             int count, RowRange keep, Scores& sum) {
   const int last = scores.count - 1;
   std::vector<float> before, now(scores.count);
@@ -48,7 +48,7 @@ void follow(const Band& band, int ref, const SupportOptions& options,
 }  // namespace
 
 Scores scanline(const Band& band, int ref, RowRange rows, const SupportOptions& options,
-                const StripMap<std::uint8_t>& todo, const Scores& scores) {
+                MapView<const std::uint8_t> todo, const Scores& scores) {
   const int width = scores.width, height = band.shape.height;
   Scores sum(rows, scores.count, width);
   std::fill(sum.data.begin(), sum.data.end(), 0.0f);

@@ -9,6 +9,6 @@ namespace gigaray::reference {
 /// Sum over the four directions of the best score of a path to the pixel (scanline.cl). rows: of
 /// the result, begin at a multiple of SCANLINE_BLOCK; scores and todo: SCANLINE_REACH rows more.
 Scores scanline(const Band& band, int ref, RowRange rows, const SupportOptions& options,
-                const StripMap<std::uint8_t>& todo, const Scores& scores);
+                MapView<const std::uint8_t> todo, const Scores& scores);
 
 }  // namespace gigaray::reference

@@ -9,7 +9,7 @@ namespace {
 /// contributes to hypothesis i.
 template <class ScoreOf>
 Scores support(const Band& band, int ref, RowRange rows, const SupportOptions& options,
-               const StripMap<std::uint8_t>& todo, const StripMap<HypothesisBounds>& bounds,
+               MapView<const std::uint8_t> todo, MapView<const HypothesisBounds> bounds,
                const Scores& scores, ScoreOf score_of) {
   Scores supported(rows, scores.count, scores.width);
   for (int v = rows.begin; v < rows.end; ++v) {
@@ -41,15 +41,15 @@ Scores support(const Band& band, int ref, RowRange rows, const SupportOptions& o
 }  // namespace
 
 Scores score_support(const Band& band, int ref, RowRange rows, const SupportOptions& options,
-                     const StripMap<std::uint8_t>& todo, const StripMap<HypothesisBounds>& bounds,
+                     MapView<const std::uint8_t> todo, MapView<const HypothesisBounds> bounds,
                      const Scores& scores) {
   return support(band, ref, rows, options, todo, bounds, scores,
                  [&](int, int, int x, int y, int i) { return scores.at(x, y, i); });
 }
 
 Scores slanted_support(const Band& band, int ref, RowRange rows, const SupportOptions& options,
-                       const HypothesisRange& hypotheses, const StripMap<std::uint8_t>& todo,
-                       const StripMap<HypothesisBounds>& bounds, const StripMap<Slope>& slopes,
+                       const HypothesisRange& hypotheses, MapView<const std::uint8_t> todo,
+                       MapView<const HypothesisBounds> bounds, MapView<const Slope> slopes,
                        const Scores& scores) {
   const float step = float(hypotheses.step());
   return support(band, ref, rows, options, todo, bounds, scores,

@@ -8,14 +8,14 @@ namespace gigaray::reference {
 
 /// Scores of `rows` supported by their neighbours, weighed by colour and distance.
 Scores score_support(const Band& band, int ref, RowRange rows, const SupportOptions& options,
-                     const StripMap<std::uint8_t>& todo, const StripMap<HypothesisBounds>& bounds,
+                     MapView<const std::uint8_t> todo, MapView<const HypothesisBounds> bounds,
                      const Scores& scores);
 
 /// The same along the slope of the surface: a neighbour counts with its score at the hypothesis
 /// that the surface through the pixel has there, linearly interpolated.
 Scores slanted_support(const Band& band, int ref, RowRange rows, const SupportOptions& options,
-                       const HypothesisRange& hypotheses, const StripMap<std::uint8_t>& todo,
-                       const StripMap<HypothesisBounds>& bounds, const StripMap<Slope>& slopes,
+                       const HypothesisRange& hypotheses, MapView<const std::uint8_t> todo,
+                       MapView<const HypothesisBounds> bounds, MapView<const Slope> slopes,
                        const Scores& scores);
 
 }  // namespace gigaray::reference

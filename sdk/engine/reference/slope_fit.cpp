@@ -5,13 +5,14 @@
 namespace gigaray::reference {
 
 void slope_fit(const Band& band, int ref, RowRange rows, float step, float max_slope,
-               const StripMap<float>& in, StripMap<Slope>& slopes) {
+               MapView<const std::uint8_t> todo, MapView<const float> in, MapView<Slope> slopes) {
   constexpr int kStride = 3, kSamples = 5;
   static_assert(kStride * kSamples == kSlopeReach);
   constexpr float kSigmaColour = 0.05f, kSigmaSpace = 8;
   const int width = band.shape.width, height = band.shape.height;
   for (int v = rows.begin; v < rows.end; ++v) {
     for (int u = 0; u < width; ++u) {
+      if (!todo.row(v)[u]) continue;
       Slope slope;
       const float own = in.row(v)[u];
       for (const float hypotheses : {12.0f, 6.0f, 3.0f}) {

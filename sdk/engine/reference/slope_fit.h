@@ -10,6 +10,6 @@ namespace gigaray::reference {
 /// are Gaussians of colour and distance, times Tukey's biweight of the residual, with ever smaller
 /// scale. step: between hypotheses, the unit of that scale; max_slope: hypothesis units per px.
 void slope_fit(const Band& band, int ref, RowRange rows, float step, float max_slope,
-               const StripMap<float>& in, StripMap<Slope>& slopes);
+               MapView<const std::uint8_t> todo, MapView<const float> in, MapView<Slope> slopes);
 
 }  // namespace gigaray::reference

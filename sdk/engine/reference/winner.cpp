@@ -5,9 +5,9 @@
 namespace gigaray::reference {
 
 void winner(RowRange rows, const Scores& chosen_by, const Scores& scores, int search,
-            const HypothesisRange& hypotheses, bool refine, const StripMap<std::uint8_t>& todo,
-            const StripMap<HypothesisBounds>& bounds, StripMap<float>& disparity,
-            StripMap<float>& contrast) {
+            const HypothesisRange& hypotheses, bool refine, MapView<const std::uint8_t> todo,
+            MapView<const HypothesisBounds> bounds, MapView<float> disparity,
+            MapView<float> contrast) {
   for (int v = rows.begin; v < rows.end; ++v) {
     for (int u = 0; u < scores.width; ++u) {
       disparity.row(v)[u] = kNoEstimate;
@@ -43,8 +43,8 @@ void winner(RowRange rows, const Scores& chosen_by, const Scores& scores, int se
 }
 
 void score_of_estimate(RowRange rows, const Scores& scores, const HypothesisRange& hypotheses,
-                       const StripMap<std::uint8_t>& todo, const StripMap<float>& disparity,
-                       StripMap<float>& out) {
+                       MapView<const std::uint8_t> todo, MapView<const float> disparity,
+                       MapView<float> out) {
   for (int v = rows.begin; v < rows.end; ++v)
     for (int u = 0; u < scores.width; ++u) {
       out.row(v)[u] = kNoEstimate;

@@ -9,13 +9,13 @@ namespace gigaray::reference {
 /// Winner (eq. 6), refined if asked, and its contrast: best score minus mean score. The largest of
 /// `chosen_by` decides, then the largest score no farther than `search` hypotheses from it.
 void winner(RowRange rows, const Scores& chosen_by, const Scores& scores, int search,
-            const HypothesisRange& hypotheses, bool refine, const StripMap<std::uint8_t>& todo,
-            const StripMap<HypothesisBounds>& bounds, StripMap<float>& disparity,
-            StripMap<float>& contrast);
+            const HypothesisRange& hypotheses, bool refine, MapView<const std::uint8_t> todo,
+            MapView<const HypothesisBounds> bounds, MapView<float> disparity,
+            MapView<float> contrast);
 
 /// Score of the hypothesis next to each estimate; NaN where there is none or nothing to do.
 void score_of_estimate(RowRange rows, const Scores& scores, const HypothesisRange& hypotheses,
-                       const StripMap<std::uint8_t>& todo, const StripMap<float>& disparity,
-                       StripMap<float>& out);
+                       MapView<const std::uint8_t> todo, MapView<const float> disparity,
+                       MapView<float> out);
 
 }  // namespace gigaray::reference

@@ -2,34 +2,28 @@
 // Copyright (c) 2026 The Gigaray authors
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "gigaray/reconstruct.h"
 #include "reconstruction_impl.h"
+#include "reference/search_bounds.h"
 
 namespace gigaray {
 
 Decision Reconstruction::decision(int view_idx, int u, int v) const {
   const Impl& impl = *impl_;
-  const auto active_index = [&](int view) {
-    return std::size_t(std::find(impl.active.begin(), impl.active.end(), view) -
-                       impl.active.begin());
-  };
-  const std::size_t active = active_index(view_idx);
-  const LevelShape& picture = impl.levels.front().shape;
-  if (active == impl.active.size() || u < 0 || v < 0 || u >= picture.width || v >= picture.height)
+  if (std::find(impl.active.begin(), impl.active.end(), view_idx) == impl.active.end() || u < 0 ||
+      v < 0 || u >= impl.maps.width() || v >= impl.maps.height())
     throw Error(ErrorCode::kInvalidArgument,
                 "pixel " + std::to_string(u) + " " + std::to_string(v) + " of view " +
                     std::to_string(view_idx) + " has no depth: it was not asked for");
+  std::vector<float> hypotheses(impl.maps.width());
+  std::vector<std::int8_t> levels(impl.maps.width());
+  impl.maps.read(impl.active_index(view_idx), v, hypotheses.data(), nullptr, levels.data());
   Decision decision;
-  PackedEstimate estimate = 0;
-  for (int level = 0; level < num_levels() && estimate == 0; ++level) {
-    const LevelState& state = impl.levels[level];
-    state.estimates.read(v >> level, (active * state.shape.width + (u >> level)) * sizeof estimate,
-                         sizeof estimate, &estimate);
-    if (estimate != 0) decision.level = level;
-  }
-  if (estimate == 0) return decision;
-  const float hypothesis = hypothesis_of(estimate);
+  decision.level = levels[u];
+  if (decision.level < 0) return decision;
+  const float hypothesis = hypotheses[u];
   decision.disparity = impl.disparity_of(view_idx, hypothesis);
   const int level = decision.level, at_u = u >> level, at_v = v >> level;
 
@@ -56,12 +50,14 @@ Decision Reconstruction::decision(int view_idx, int u, int v) const {
 
   decision.bounds = {impl.disparity_of(view_idx, float(impl.hypotheses.min)),
                      impl.disparity_of(view_idx, float(impl.hypotheses.max))};
-  if (level == 0 || decision.view < 0) return decision;
-  const LevelState& state = impl.levels[level];
+  if (level == 0 || decision.view < 0 || impl.searches.empty()) return decision;
+  const LevelSearch& searched = impl.searches[level - 1];
   Search search;
-  state.search.read(decision.v,
-                    (active_index(decision.view) * state.shape.width + decision.u) * sizeof(Search),
-                    sizeof(Search), &search);
+  searched.rows.read(
+      decision.v,
+      (impl.active_index(decision.view) * std::size_t(searched.shape.width) + decision.u) *
+          sizeof(Search),
+      sizeof(Search), &search);
   if (std::isnan(search.low)) return decision;
   const HypothesisBounds bounds = bounds_of(search, impl.hypotheses);
   decision.bounds = {impl.disparity_of(decision.view, float(impl.hypotheses.value(bounds.first))),

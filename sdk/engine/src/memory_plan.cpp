@@ -9,7 +9,6 @@
 #include "gigaray/memory_limit.h"
 #include "gigaray/samplers/any_sampler.h"
 #include "gigaray/scratch_file.h"
-#include "search_bounds.h"
 
 namespace gigaray {
 namespace {
@@ -47,7 +46,7 @@ LevelCost cost_of(const LevelShape& shape, const LightField& light_field,
   cost.stores = pixels * (all * colour_bytes + active * kept);
   if (shape.level == 0 && light_field.pixels->has_mask()) cost.stores += pixels * all;
   const bool gradient = options.score.gradient;
-  const double planes = n * StripMap<float>::pitch_for(shape.width) * sizeof(float);
+  const double planes = n * map_pitch(shape.width) * sizeof(float);
   const double plane_bytes = planes * (gradient ? 5 : 3);
   const double tap_bytes =
       light_field.kind == LightFieldKind::kUnstructured ? planes * (gradient ? 8 : 4) : 0;
@@ -122,7 +121,7 @@ class Planner {
     const SupportOptions& support = options_.support;
     // Maps of one view: todo, bounds (twice with support), disparity, confidence, median, radiance,
     // slopes, means along rays (5 channels).
-    const double pitch = StripMap<float>::pitch_for(light_field_.width);
+    const double pitch = map_pitch(light_field_.width);
     const double view_maps = pitch * light_field_.height *
                              (27 + (support.slanted ? 24 : 0) + (options_.score.ray_mean ? 24 : 0));
     const double threads = std::min(4u, std::max(1u, std::thread::hardware_concurrency()));
@@ -271,6 +270,7 @@ MemoryPlan plan_memory(const LightField& light_field, const DepthOptions& option
                     std::to_string(int(std::ceil(planner.least_limit() / kMiB))) + " MiB");
   const bool keep = in_memory && (in_memory->forecast.bands <= 4 || !in_files);
   MemoryPlan chosen = keep ? *in_memory : *in_files;
+  chosen.place = keep ? Place::kDevice : Place::kFile;
   if (!keep)
     chosen.work_folder = options.work_folder.empty()
                              ? temporary_folder(" or name another folder by --work")

@@ -5,7 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "estimates.h"
 #include "gigaray/reconstruct.h"
+#include "level_rows.h"
 
 namespace gigaray {
 
@@ -20,7 +22,8 @@ struct LevelPlan {
 /// How a run fits into the memory it may take.
 struct MemoryPlan {
   std::vector<LevelPlan> levels;
-  std::string work_folder;  ///< Where rows are stored; empty: in memory.
+  Place place = Place::kDevice;  ///< Where rows are stored.
+  std::string work_folder;       ///< of files; else empty
   Forecast forecast;
   /// The part of the forecast that compiling kernels takes. Every plan leaves room for it, so that
   /// a run needs as much whether its kernels are cached or not.

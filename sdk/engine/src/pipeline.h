@@ -2,16 +2,19 @@
 // Copyright (c) 2026 The Gigaray authors
 #pragma once
 
+#include <array>
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "finished_maps.h"
 #include "gigaray/reconstruct.h"
 #include "gigaray/samplers/any_sampler.h"
+#include "level_rows.h"
 #include "memory_plan.h"
-#include "row_store.h"
-#include "search_bounds.h"
 #include "tuple_store.h"
+#include "workspace.h"
 
 namespace gigaray {
 
@@ -19,112 +22,146 @@ namespace gigaray {
 /// band is one sequential read.
 struct LevelState {
   LevelShape shape;
-  RowStore pixels;     ///< [v][view]: level 0 [u][3] as decoded, else [3][u] floats
-  RowStore mask;       ///< [v][active view][u]: worth trying; empty: everything is
-  RowStore estimates;  ///< [v][active view][u] PackedEstimate
-  RowStore bars;       ///< [v][active view][u] floats, see raise_bars(); empty: no view has any
-  RowStore search;     ///< [v][active view][u] Search; empty at level 0
+  LevelRows pixels;     ///< [v][view]: level 0 [u][3] as decoded, else [3][u] floats
+  LevelRows mask;       ///< [v][active view][u]: worth trying; empty: everything is
+  LevelRows estimates;  ///< [v][active view][u] PackedEstimate
+  LevelRows bars;  ///< [v][active view][u] floats, see Workspace::set_bars; empty: no view has any
+  LevelRows search;  ///< [v][active view][u] Search; empty at level 0
 };
 
 /// Walks the levels from fine to coarse, in each the views from the centre outwards, in each the
 /// bands from top to bottom. The order of views and levels is fixed; a view is complete before the
-/// next one starts. That makes the result independent of the bands.
+/// next one starts. That makes the result independent of the bands. It decides what is done and
+/// looks at no pixel: those stay in the workspace.
 class Pipeline {
  public:
   Pipeline(const LightField& light_field, const DepthOptions& options,
-           const HypothesisRange& hypotheses, const MemoryPlan& plan, Backend& backend,
+           const HypothesisRange& hypotheses, const MemoryPlan& plan, Workspace& workspace,
            const RunControl& control);
 
   void run();
 
-  std::vector<LevelState>& levels() { return levels_; }
-  RowStore& mask() { return mask_; }
   const std::vector<int>& active_views() const { return active_; }
+  FinishedMaps& maps() { return maps_; }
   TupleStore& tuples() { return tuples_; }
-  std::map<std::string, double>& seconds() { return seconds_; }
+  std::vector<LevelSearch>& searches() { return searches_; }
+  /// Of the host's work and the device's.
+  std::map<std::string, double> seconds() const;
 
  private:
   /// Maps of the view that is worked on; all rows.
-  struct ViewMaps {
-    StripMap<std::uint8_t> todo;
-    StripMap<HypothesisBounds> bounds;
-    StripMap<float> disparity;  ///< Winners of this pass and what the view already has.
-    StripMap<float> confidence;
+  struct Maps {
+    Map<std::uint8_t> todo, grown_todo;  ///< grown: and what supports it
+    Map<HypothesisBounds> bounds, grown_bounds;
+    Map<float> disparity;  ///< Winners so far and what the view already has.
+    Map<float> confidence, more_confidence;
+    Map<float> smooth;  ///< Winners of a look after a median; accepted estimates at the end.
+    Map<Slope> slopes;
+    Map<float> means;  ///< along rays
+    Map<std::uint8_t> beside, scratch, more_scratch;
+    Map<Radiance> radiance;
   };
 
   /// One look at the pixels to do, with what was learned from the one before.
-  struct ScorePass {
-    StripMap<std::uint8_t> todo;
-    StripMap<std::uint8_t> score_todo;  ///< and what supports them
-    StripMap<HypothesisBounds> score_bounds;
-    const StripMap<Slope>* slopes = nullptr;  ///< null: support without slopes
+  struct Look {
+    const Map<std::uint8_t>* todo = nullptr;
+    std::vector<int> counts;   ///< of pixels to do, by row
+    bool with_slopes = false;  ///< support along the slopes
     ScoreViews views = ScoreViews::kAll;
     bool scanline = false;
   };
-  ScorePass make_pass(const StripMap<std::uint8_t>& todo, const ViewMaps& maps);
 
   void decode();
   void begin_level(int level);
+  void make_maps();
   void find_edges_and_downsample();
   void find_edges(const std::vector<int>& views, RowRange band);
   void downsample(const std::vector<int>& views, RowRange band);
-  bool find_todo(int active_idx, ViewMaps& maps);
-  void fill_cracks(int active_idx, ViewMaps& maps);
-  void score_view(int view, ViewMaps& maps);
-  void look_behind(int view, const StripMap<Slope>& slopes, const StripMap<float>& smooth,
-                   ViewMaps& maps);
-  void see_means(const StripMap<float>* means);
-  void score_strips(int view, const ScorePass& pass, ViewMaps& maps);
-  void score_strip(int view, RowRange rows, const ScorePass& pass, ViewMaps& maps);
-  void take_winners(int view, RowRange rows, const ScorePass& pass, ViewMaps& maps);
-  void step_back(RowRange rows, const ScorePass& pass, ViewMaps& maps);
-  StripMap<float> smooth_disparity(int view, const ViewMaps& maps);
-  StripMap<float> ray_means(int view, const ScorePass& pass, const StripMap<float>& smooth);
-  StripMap<Slope> fit_slopes(int view, const StripMap<std::uint8_t>& todo,
-                             const StripMap<float>& smooth);
-  void accept_view(int active_idx, ViewMaps& maps);
-  /// The view is finished: from now on what arrives in it must lead (finished_lead).
-  void raise_bars(int active_idx);
+  bool find_todo(int active_idx);
+  /// Opening by a diamond that reaches `radius` px: 1, a cross of 3 px, removes isolated pixels and
+  /// keeps lines of two. In one of the scratch maps; of radius 1 in more_scratch.
+  const Map<std::uint8_t>& opened(int radius, const Map<std::uint8_t>& mask);
+  void score_view(int view);
+  void look_behind(int view);
+  void grow_todo(const Map<std::uint8_t>& todo);
+  void score_strips(int view, const Look& look);
+  void score_strip(int view, RowRange rows, const Look& look);
+  void take_winners(int view, RowRange rows, const Map<std::uint8_t>& todo,
+                    const Map<float>& winners, const Map<float>& contrast);
+  void step_back(RowRange rows, const Map<std::uint8_t>& todo, const Map<float>& winners,
+                 const Map<float>& contrast);
+  void smooth_disparity(int view);
+  void ray_means(int view);
+  void see_means(bool see);
+  void fit_slopes(int view);
+  void accept_view(int active_idx);
+  void propagate(int active_idx, RowRange band);
+  void clear_bars(int active_idx, RowRange band);
+  void collect_tuples(int view);
+  /// Those that were being read are there.
+  void take_fresh_tuples();
   void coarsen();
+  void finish();
+  void keep_searches();
 
   std::vector<RowRange> bands() const;
+  int count(const std::vector<int>& counts, RowRange rows) const;
   /// What the rays of some rows of a view need, and the rows around them.
   void load_band(int view, RowRange band);
   /// Some rows of some views, as they are.
   void load_rows(const std::vector<int>& views, RowRange rows, bool masked);
+  ShownRows open_shown(RowRange rows, const std::vector<int>& views, std::vector<int>& at);
   RowRange rows_needed(int view, RowRange rows) const;
   /// The views in groups that a band holds, for steps that look along no ray.
   std::vector<std::vector<int>> view_groups() const;
   bool is_last_level() const { return level_ + 1 == int(plan_.levels.size()); }
-  RowStore make_store(int rows, std::size_t row_bytes) const {
-    return RowStore(rows, row_bytes, plan_.work_folder);
+  LevelRows make_rows(int rows, std::size_t views, std::size_t view_bytes) {
+    return {workspace_, rows, int(views), view_bytes, plan_.place, plan_.work_folder};
   }
+  const LevelShape& shape() const { return plan_.levels[level_].shape; }
   void report(double done);
+  /// A map of some rows alone; strips of different slots can be used together.
+  template <class T>
+  Map<T> strip(int slot, RowRange rows) {
+    const std::size_t bytes = std::size_t(map_pitch(shape().width)) * rows.size() * sizeof(T);
+    std::shared_ptr<Memory>& memory = strips_[slot];
+    if (!memory || memory->bytes() < bytes) {
+      memory.reset();
+      memory = workspace_.allocate(bytes);
+    }
+    return {memory, shape().width, rows};
+  }
 
   const LightField& light_field_;
   const DepthOptions& options_;
   const HypothesisRange hypotheses_;
   const MemoryPlan& plan_;
-  Backend& backend_;
+  Workspace& workspace_;
   const RunControl& control_;
   AnySampler sampler_;
 
   std::vector<int> active_;  ///< views that get depth, from the centre outwards
   std::vector<LevelState> levels_;
+  FinishedMaps maps_;
   TupleStore tuples_;
-  std::map<std::string, double> seconds_;
+  std::vector<LevelSearch> searches_;
+  std::map<std::string, double> seconds_;  ///< of the host
 
-  RowStore mask_;  ///< level 0 [v][view][u]: 0 where a pixel shows nothing; empty: all do
+  LevelRows shown_;  ///< level 0 [v][view][u]: 0 where a pixel shows nothing; empty: all do
   std::vector<std::vector<int>> partners_;  ///< of every view
 
   int level_ = 0;
-  RowRange loaded_band_;  ///< that the loaded rows are for; empty: none
+  Maps of_view_;
+  std::vector<int> todo_counts_;  ///< pixels to do of the view that is worked on, by row
+  RowRange loaded_band_;          ///< that the loaded rows are for; empty: none
   RowRange loaded_rows_;
   std::vector<int> loaded_views_;
   bool loaded_masked_ = false;
-  const StripMap<float>* means_ = nullptr;  ///< stand for the pixels of the view that is worked on
-  RowRange scored_rows_;  ///< what the backend has raw scores of, for the view that is worked on
-  AlignedBytes band_scratch_, mask_scratch_, state_scratch_, bar_scratch_;
+  bool sees_means_ = false;  ///< means stand for the pixels of the view that is worked on
+  RowRange scored_rows_;  ///< what the workspace has raw scores of, for the view that is worked on
+  std::array<std::shared_ptr<Memory>, 4> strips_;
+  std::shared_ptr<Memory> tuple_memory_;
+  std::vector<RayTuple> fresh_tuples_;  ///< being read
 };
 
 }  // namespace gigaray

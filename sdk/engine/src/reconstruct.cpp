@@ -5,14 +5,15 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <limits>
+#include <span>
 #include <sstream>
 
-#include "gigaray/calibration.h"
 #include "gigaray/scene_estimates.h"
 #include "gigaray/smoothing.h"
 #include "inverse_depths.h"
+#include "make_workspace.h"
 #include "opencl/ready_kernels.h"
+#include "pipeline.h"
 #include "reconstruction_impl.h"
 #include "stage_timer.h"
 
@@ -156,13 +157,13 @@ MemoryPlan plan_run(const Prepared& run, const BackendChoice& choice) {
   return plan;
 }
 
-std::unique_ptr<Backend> make_backend(const Prepared& run, const BackendChoice& choice) {
-  const BackendSetup setup{run.options, run.hypotheses, run.light_field.kind,
-                           run.light_field.pixels->bit_depth()};
+std::unique_ptr<Workspace> make_workspace(const Prepared& run, const BackendChoice& choice) {
+  const WorkspaceSetup setup{run.options, run.hypotheses, run.light_field.kind,
+                             run.light_field.pixels->bit_depth()};
   return std::visit(
-      [&](const auto& sampler) -> std::unique_ptr<Backend> {
-        if (choice.backend == "reference") return make_reference_backend(sampler, setup);
-        if (choice.backend == "opencl") return make_opencl_backend(sampler, setup, choice.device);
+      [&](const auto& sampler) -> std::unique_ptr<Workspace> {
+        if (choice.backend == "reference") return make_reference_workspace(sampler, setup);
+        if (choice.backend == "opencl") return make_opencl_workspace(sampler, setup, choice.device);
         throw Error(ErrorCode::kInvalidArgument,
                     "backend " + choice.backend + ": there are opencl and reference");
       },
@@ -171,109 +172,12 @@ std::unique_ptr<Backend> make_backend(const Prepared& run, const BackendChoice& 
 
 }  // namespace
 
-void Reconstruction::Impl::leave_out_masked(int view, ViewDepth& depth) const {
-  if (mask.empty()) return;
-  std::vector<std::uint8_t> shown(depth.disparity.width());
-  for (int v = 0; v < depth.disparity.height(); ++v) {
-    mask.read(v, std::size_t(view) * shown.size(), shown.size(), shown.data());
-    for (int u = 0; u < depth.disparity.width(); ++u) {
-      if (shown[u]) continue;
-      depth.disparity(u, v) = depth.confidence(u, v) = kNoEstimate;
-      depth.level(u, v) = -1;
-    }
-  }
-}
-
-Reconstruction::Reconstruction(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
-Reconstruction::Reconstruction(Reconstruction&&) noexcept = default;
-Reconstruction& Reconstruction::operator=(Reconstruction&&) noexcept = default;
-Reconstruction::~Reconstruction() = default;
-
-const DepthOptions& Reconstruction::options() const { return impl_->options; }
-HypothesisRange Reconstruction::hypotheses() const {
-  if (impl_->cameras.empty()) return impl_->hypotheses;
-  const InverseDepthRange all = all_inverse_depths(impl_->cameras);
-  return {all.min, all.max, impl_->hypotheses.count};
-}
-const std::vector<Camera>& Reconstruction::cameras() const { return impl_->cameras; }
-const std::vector<int>& Reconstruction::views() const { return impl_->views; }
-int Reconstruction::num_levels() const { return int(impl_->levels.size()); }
-const std::string& Reconstruction::device() const { return impl_->device; }
-const std::map<std::string, double>& Reconstruction::seconds() const { return impl_->seconds; }
-const Forecast& Reconstruction::forecast() const { return impl_->plan.forecast; }
-std::size_t Reconstruction::num_tuples() const { return impl_->tuples.size(); }
-void Reconstruction::for_each_tuple(const std::function<void(const RayTuple&)>& visit) const {
-  impl_->tuples.for_each([&](RayTuple tuple) {
-    tuple.hypothesis = impl_->disparity_of(tuple.view, tuple.hypothesis);
-    visit(tuple);
-  });
-}
-
-ViewDepth Reconstruction::view(int view_idx) {
-  const StageTimer timer(impl_->seconds, "fill");
-  const auto found = std::find(impl_->active.begin(), impl_->active.end(), view_idx);
-  if (found == impl_->active.end())
-    throw Error(ErrorCode::kInvalidArgument,
-                "view " + std::to_string(view_idx) + " was not asked for, it has no depth");
-  const std::size_t active = found - impl_->active.begin();
-
-  // From the coarsest level down: an own estimate, else that of the coarse pixel above.
-  ViewDepth result;
-  std::vector<PackedEstimate> row;
-  for (int level = num_levels() - 1; level >= 0; --level) {
-    const LevelState& state = impl_->levels[level];
-    const int width = state.shape.width, height = state.shape.height;
-    const ViewDepth coarse = std::move(result);
-    result = {FloatMap(width, height, 1, kNoEstimate), FloatMap(width, height, 1, kNoEstimate),
-              Image<std::int8_t>(width, height, 1, std::int8_t(-1))};
-    row.resize(width);
-    for (int v = 0; v < height; ++v) {
-      state.estimates.read(v, active * width * sizeof(PackedEstimate),
-                           width * sizeof(PackedEstimate), row.data());
-      for (int u = 0; u < width; ++u) {
-        if (row[u] != 0) {
-          result.disparity(u, v) = hypothesis_of(row[u]);
-          result.confidence(u, v) = confidence_of(row[u]);
-          result.level(u, v) = std::int8_t(level);
-        } else if (!coarse.disparity.empty()) {
-          result.disparity(u, v) = coarse.disparity(u / 2, v / 2);
-          result.confidence(u, v) = coarse.confidence(u / 2, v / 2);
-          result.level(u, v) = coarse.level(u / 2, v / 2);
-        }
-      }
-    }
-  }
-
-  if (impl_->options.winner.calibrated)
-    for (float& confidence : result.confidence) confidence = calibrated_confidence(confidence);
-
-  impl_->leave_out_masked(view_idx, result);
-  for (float& value : result.disparity) value = impl_->disparity_of(view_idx, value);
-  const int radius = impl_->options.propagation.final_median_radius;
-  if (radius == 0) return result;
-  const int width = result.disparity.width(), height = result.disparity.height();
-  const RowRange all{0, height};
-  StripMap<float> in(width, all), out(width, all);
-  for (int v = 0; v < height; ++v) std::copy_n(result.disparity.row(v), width, in.row(v));
-  impl_->backend->begin_level({0, width, height});
-  impl_->backend->bilateral_median(view_idx, all, radius, std::numeric_limits<float>::infinity(),
-                                   in, out);
-  for (int v = 0; v < height; ++v) std::copy_n(out.row(v), width, result.disparity.row(v));
-  impl_->leave_out_masked(view_idx, result);
-  return result;
-}
-
-void drop_unsure(float min_confidence, ViewDepth& depth) {
-  for (int v = 0; v < depth.disparity.height(); ++v)
-    for (int u = 0; u < depth.disparity.width(); ++u)
-      if (!(depth.confidence(u, v) >= min_confidence)) depth.disparity(u, v) = kNoEstimate;
-}
-
 Reconstruction reconstruct(const LightField& light_field, const DepthOptions& options,
                            const BackendChoice& backend, const RunControl& control) {
   auto impl = std::make_unique<Reconstruction::Impl>();
   LightField seen;
   std::string job;
+  std::unique_ptr<Workspace> workspace;
   {
     const StageTimer timer(impl->seconds, "prepare");
     Prepared run = prepare(light_field, options, control);
@@ -285,14 +189,14 @@ Reconstruction reconstruct(const LightField& light_field, const DepthOptions& op
     impl->hypotheses = run.hypotheses;
     impl->cameras = seen.cameras;
     impl->sampler = make_sampler(seen);
-    impl->backend = make_backend(run, backend);
+    workspace = make_workspace(run, backend);
   }
-  impl->device = impl->backend->name() + ": " + impl->backend->description();
-  Pipeline pipeline(seen, impl->options, impl->hypotheses, impl->plan, *impl->backend, control);
+  impl->device = workspace->name() + ": " + workspace->description();
+  Pipeline pipeline(seen, impl->options, impl->hypotheses, impl->plan, *workspace, control);
   pipeline.run();
   if (backend.backend == "opencl") opencl::note_ready_kernels(job);
-  impl->levels = std::move(pipeline.levels());
-  impl->mask = std::move(pipeline.mask());
+  impl->maps = std::move(pipeline.maps());
+  impl->searches = std::move(pipeline.searches());
   impl->active = pipeline.active_views();
   impl->views = impl->active;
   std::sort(impl->views.begin(), impl->views.end());
@@ -323,7 +227,7 @@ ScoreCurve probe(const LightField& light_field, const DepthOptions& options,
                                                  std::to_string(height));
   Prepared run = prepare(light_field, options, control);
   adapt_to_pictures(run, control);
-  const auto backend = make_backend(run, choice);
+  const auto workspace = make_workspace(run, choice);
   const AnySampler sampler = make_sampler(run.light_field);
   const std::vector<int> partners =
       std::visit([&](const auto& s) { return s.partners(view_idx); }, sampler);
@@ -352,34 +256,47 @@ ScoreCurve probe(const LightField& light_field, const DepthOptions& options,
   }
   std::vector<std::uint8_t> bytes;
   if (light_field.pixels->bit_depth() == 8) bytes.assign(encoded.begin(), encoded.end());
-  backend->begin_level({0, width, height});
-  const std::uint8_t* shown = mask.empty() ? nullptr : mask.data();
-  if (bytes.empty())
-    backend->load_band(rows, partners, encoded.data(), BandEncoding::kBits16, shown);
-  else
-    backend->load_band(rows, partners, bytes.data(), BandEncoding::kBits8, shown);
+  const auto to_device = [&](auto& values) {
+    RowsOnDevice to{workspace->allocate(values.size() * sizeof values[0]), rows.begin, int(loaded)};
+    workspace->write(*to.memory, std::as_bytes(std::span(values)));
+    return to;
+  };
+  EncodedRows source;
+  source.at = all_views(int(loaded));
+  source.encoding = bytes.empty() ? BandEncoding::kBits16 : BandEncoding::kBits8;
+  source.pixels = bytes.empty() ? to_device(encoded) : to_device(bytes);
+  if (!mask.empty()) source.shown = {to_device(mask), width, 0};
+  workspace->begin_level({0, width, height});
+  workspace->load_band(rows, partners, source);
 
+  // The window around the pixel is to do, with all hypotheses; maps are of the whole view.
+  const RowRange all{0, height};
+  const auto todo = workspace->make_map<std::uint8_t>(width, all);
+  const auto bounds = workspace->make_map<HypothesisBounds>(width, all);
   const HypothesisBounds full{0, std::uint16_t(run.hypotheses.count - 1)};
-  StripMap<std::uint8_t> todo(width, strip);
-  StripMap<HypothesisBounds> bounds(width, strip);
+  StripMap<std::uint8_t> wanted(width, strip);
+  StripMap<HypothesisBounds> tested(width, strip);
   for (int y = strip.begin; y < strip.end; ++y)
     for (int x = std::max(u - radius, 0); x <= std::min(u + radius, width - 1); ++x) {
-      todo.row(y)[x] = 1;
-      bounds.row(y)[x] = full;
+      wanted.row(y)[x] = 1;
+      tested.row(y)[x] = full;
     }
+  workspace->put(wanted, todo);
+  workspace->put(tested, bounds);
   if (run.options.score.gradient)
-    backend->robust_score(view_idx, strip, todo, bounds, ScoreViews::kAll);
+    workspace->robust_score(view_idx, strip, todo, bounds, ScoreViews::kAll);
   else
-    backend->density_score(view_idx, strip, todo, bounds);
+    workspace->density_score(view_idx, strip, todo, bounds);
   const RowRange row{v, v + 1};
-  if (radius > 0) backend->score_support(view_idx, row, todo, bounds);
-  StripMap<float> disparity(width, row), contrast(width, row);
-  backend->winner(row, todo, bounds, disparity, contrast);
+  if (radius > 0) workspace->score_support(view_idx, row, todo, bounds);
+  const auto disparity = workspace->make_map<float>(width, row);
+  const auto contrast = workspace->make_map<float>(width, row);
+  workspace->winner(row, todo, bounds, disparity, contrast);
 
   ScoreCurve curve;
-  curve.scores = backend->scores_at(u, v);
-  const float winner = disparity.row(v)[u];
-  curve.confidence = contrast.row(v)[u];
+  curve.scores = workspace->scores_at(u, v);
+  const float winner = workspace->get(disparity).row(v)[u];
+  curve.confidence = workspace->get(contrast).row(v)[u];
   const float most = float((1 << light_field.pixels->bit_depth()) - 1);
   const Radiance unseen{kNoEstimate, kNoEstimate, kNoEstimate};
   curve.samples.assign(light_field.views.size(), unseen);

@@ -8,7 +8,11 @@
 #include <string>
 #include <vector>
 
-#include "pipeline.h"
+#include "finished_maps.h"
+#include "gigaray/reconstruct.h"
+#include "gigaray/samplers/any_sampler.h"
+#include "memory_plan.h"
+#include "tuple_store.h"
 
 namespace gigaray {
 
@@ -17,13 +21,12 @@ struct Reconstruction::Impl {
   HypothesisRange hypotheses;  ///< as the engine steps through them
   std::optional<AnySampler> sampler;
   std::vector<Camera> cameras;  ///< unstructured: with the range of each
-  RowStore mask;                ///< Pipeline::mask()
   MemoryPlan plan;
-  std::unique_ptr<Backend> backend;
   std::string device;
-  std::vector<int> views;   ///< ascending
-  std::vector<int> active;  ///< as processed
-  std::vector<LevelState> levels;
+  std::vector<int> views;             ///< ascending
+  std::vector<int> active;            ///< as processed
+  FinishedMaps maps;                  ///< of the active views
+  std::vector<LevelSearch> searches;  ///< with DepthOptions::keep_searches
   TupleStore tuples{""};
   std::map<std::string, double> seconds;
 
@@ -33,8 +36,8 @@ struct Reconstruction::Impl {
     const InverseDepthRange& range = *cameras[view].inverse_depth;
     return float(range.min + hypothesis * (range.max - range.min));
   }
-  /// Takes estimates away where the view shows nothing of the scene.
-  void leave_out_masked(int view, ViewDepth& depth) const;
+  /// Place among the active views. Throws Error(kInvalidArgument).
+  int active_index(int view) const;
 };
 
 }  // namespace gigaray

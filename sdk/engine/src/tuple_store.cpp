@@ -7,6 +7,10 @@
 
 namespace gigaray {
 
+void TupleStore::append(const std::vector<RayTuple>& tuples) {
+  for (const RayTuple& tuple : tuples) append(tuple);
+}
+
 void TupleStore::append(const RayTuple& tuple) {
   recent_.reserve(kBlock);
   recent_.push_back(tuple);

@@ -18,7 +18,7 @@ class TupleStore {
   /// folder: for the file; empty keeps all tuples in memory.
   explicit TupleStore(std::string folder) : folder_(std::move(folder)) {}
 
-  void append(const RayTuple& tuple);
+  void append(const std::vector<RayTuple>& tuples);
   std::size_t size() const { return spilled_ + kBlock * full_.size() + recent_.size(); }
   void for_each(const std::function<void(const RayTuple&)>& visit) const;
 
@@ -30,6 +30,8 @@ class TupleStore {
   std::size_t spilled_ = 0;
   ScratchFile file_;
   std::vector<std::vector<RayTuple>> full_;  ///< without a folder
+  void append(const RayTuple& tuple);
+
   std::vector<RayTuple> recent_;
 };
 

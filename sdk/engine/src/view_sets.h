@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "gigaray/backend.h"
 #include "gigaray/ray_sampler.h"
+#include "src/workspace.h"
 
 namespace gigaray {
 

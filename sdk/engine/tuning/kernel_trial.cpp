@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <span>
 #include <utility>
 
 #include "gigaray/synthetic.h"
@@ -83,9 +83,9 @@ KernelTrial::KernelTrial(const TrialShape& shape, const DepthOptions& options)
 
   todo_ = StripMap<std::uint8_t>(width, rows());
   bounds_ = StripMap<HypothesisBounds>(width, rows());
-  disparity_ = confidence_ = map_ = second_map_ = StripMap<float>(width, rows());
-  radiance_ = mean_radiance_ = StripMap<Radiance>(width, rows());
-  slopes_ = fitted_slopes_ = StripMap<Slope>(width, rows());
+  disparity_ = confidence_ = StripMap<float>(width, rows());
+  radiance_ = StripMap<Radiance>(width, rows());
+  slopes_ = StripMap<Slope>(width, rows());
   const HypothesisBounds full{0, std::uint16_t(shape.hypotheses - 1)};
   const double step = setup_.hypotheses.step();
   for (int v = 0; v < height; ++v) {
@@ -102,124 +102,150 @@ KernelTrial::KernelTrial(const TrialShape& shape, const DepthOptions& options)
       radiance_.row(v)[u] = {own[3 * u] / 255.0f, own[3 * u + 1] / 255.0f, own[3 * u + 2] / 255.0f};
     }
   }
-  estimates_.resize(std::size_t(height) * views * width);
-  small_.resize(std::size_t(height + 1) / 2 * views * 3 * ((width + 1) / 2));
 }
 
-void KernelTrial::load(Backend& backend) const {
-  backend.load_band(rows(), all_views(num_views()), encoded_.data(), BandEncoding::kBits8, nullptr);
+std::unique_ptr<TrialBench> KernelTrial::make_bench(std::unique_ptr<Workspace> workspace) const {
+  auto bench = std::make_unique<TrialBench>();
+  Workspace& device = *workspace;
+  bench->workspace = std::move(workspace);
+  device.set_active_views(all_views(num_views()));
+  device.begin_level({0, shape_.width, shape_.height});
+  const auto make = [&]<class T>(const StripMap<T>& from, Map<T>& to) {
+    to = device.make_map<T>(shape_.width, rows());
+    if (from.rows() == rows()) device.put(from, to);
+  };
+  make(todo_, bench->todo);
+  make(bounds_, bench->bounds);
+  make(disparity_, bench->disparity);
+  make(confidence_, bench->confidence);
+  make(radiance_, bench->radiance);
+  make(slopes_, bench->slopes);
+  make(StripMap<float>(), bench->map);
+  make(StripMap<float>(), bench->second_map);
+  make(StripMap<Radiance>(), bench->mean_radiance);
+  make(StripMap<Slope>(), bench->fitted_slopes);
+  bench->pixels.pixels = {device.allocate(encoded_.size()), 0, num_views()};
+  bench->pixels.at = all_views(num_views());
+  device.write(*bench->pixels.pixels.memory, std::as_bytes(std::span(encoded_)));
+  const std::size_t rows_of_views = std::size_t(shape_.height) * num_views();
+  bench->estimates = {device.allocate(rows_of_views * shape_.width * sizeof(PackedEstimate)), 0,
+                      num_views()};
+  bench->small = {device.allocate(rows_of_views * 3 * shape_.width * sizeof(float)), 0,
+                  num_views()};
+  load(*bench);
+  return bench;
 }
 
-std::unique_ptr<Backend> KernelTrial::reference() const {
-  auto backend =
-      std::visit([&](const auto& s) { return make_reference_backend(s, setup_); }, sampler_);
-  std::vector<int> active(num_views());
-  std::iota(active.begin(), active.end(), 0);
-  backend->set_active_views(active);
-  backend->begin_level({0, shape_.width, shape_.height});
-  load(*backend);
-  return backend;
+void KernelTrial::load(TrialBench& bench) const {
+  bench.workspace->load_band(rows(), all_views(num_views()), bench.pixels);
 }
 
-std::unique_ptr<Backend> KernelTrial::opencl(const std::string& device,
-                                             const opencl::TuningOverrides& overrides) const {
-  auto backend = std::visit(
-      [&](const auto& s) { return opencl::make_tuned_backend(s, setup_, device, overrides); },
-      sampler_);
-  std::vector<int> active(num_views());
-  std::iota(active.begin(), active.end(), 0);
-  backend->set_active_views(active);
-  backend->begin_level({0, shape_.width, shape_.height});
-  load(*backend);
-  return backend;
+std::unique_ptr<TrialBench> KernelTrial::reference() const {
+  return make_bench(
+      std::visit([&](const auto& s) { return make_reference_workspace(s, setup_); }, sampler_));
 }
 
-void KernelTrial::prepare(Backend& backend, const std::string& kernel) const {
+std::unique_ptr<TrialBench> KernelTrial::opencl(const std::string& device,
+                                                const opencl::TuningOverrides& overrides) const {
+  return make_bench(std::visit(
+      [&](const auto& s) { return opencl::make_tuned_workspace(s, setup_, device, overrides); },
+      sampler_));
+}
+
+void KernelTrial::prepare(TrialBench& bench, const std::string& kernel) const {
+  Workspace& steps = *bench.workspace;
   if (kernel == "score_support" || kernel == "slanted_support" || kernel == "scanline" ||
       kernel == "winner") {
     if (setup_.options.score.gradient)
-      backend.robust_score(ref_, rows(), todo_, bounds_, ScoreViews::kAll);
+      steps.robust_score(ref_, rows(), bench.todo, bench.bounds, ScoreViews::kAll);
     else
-      backend.density_score(ref_, rows(), todo_, bounds_);
+      steps.density_score(ref_, rows(), bench.todo, bench.bounds);
   }
-  if (kernel == "scanline") backend.score_support(ref_, rows(), todo_, bounds_);
+  if (kernel == "scanline") steps.score_support(ref_, rows(), bench.todo, bench.bounds);
+  steps.finish();
 }
 
-void KernelTrial::run(Backend& backend, const std::string& kernel) {
+void KernelTrial::run(TrialBench& bench, const std::string& kernel) const {
   const DepthOptions& options = setup_.options;
+  Workspace& steps = *bench.workspace;
   if (kernel == "unpack_channels")
-    load(backend);
+    load(bench);
   else if (kernel == "edge_confidence")
-    backend.edge_confidence(ref_, rows(), map_);
+    steps.edge_confidence(ref_, rows(), bench.map);
   else if (kernel == "density_score")
-    backend.density_score(ref_, rows(), todo_, bounds_);
+    steps.density_score(ref_, rows(), bench.todo, bench.bounds);
   else if (kernel == "robust_score")
-    backend.robust_score(ref_, rows(), todo_, bounds_, ScoreViews::kAll);
+    steps.robust_score(ref_, rows(), bench.todo, bench.bounds, ScoreViews::kAll);
   else if (kernel == "scanline")
-    backend.scanline(ref_, rows(), todo_);
+    steps.scanline(ref_, rows(), bench.todo);
   else if (kernel == "score_support")
-    backend.score_support(ref_, rows(), todo_, bounds_);
+    steps.score_support(ref_, rows(), bench.todo, bench.bounds);
   else if (kernel == "slanted_support")
-    backend.slanted_support(ref_, rows(), todo_, bounds_, slopes_);
+    steps.slanted_support(ref_, rows(), bench.todo, bench.bounds, bench.slopes);
   else if (kernel == "slope_fit")
-    backend.slope_fit(ref_, rows(), disparity_, fitted_slopes_);
+    steps.slope_fit(ref_, rows(), bench.todo, bench.disparity, bench.fitted_slopes);
   else if (kernel == "winner")
-    backend.winner(rows(), todo_, bounds_, map_, second_map_);
+    steps.winner(rows(), bench.todo, bench.bounds, bench.map, bench.second_map);
   else if (kernel == "bilateral_median")
-    backend.bilateral_median(ref_, rows(), options.winner.median_radius,
-                             options.winner.median_tolerance, disparity_, map_);
+    steps.bilateral_median(ref_, rows(), options.winner.median_radius,
+                           options.winner.median_tolerance, bench.disparity, bench.map);
   else if (kernel == "mean_radiance")
-    backend.mean_radiance(ref_, rows(), disparity_, mean_radiance_);
+    steps.mean_radiance(ref_, rows(), bench.disparity, bench.mean_radiance);
   else if (kernel == "propagation")
-    backend.propagation(ref_, rows(), disparity_, confidence_, radiance_, rows(), nullptr,
-                        estimates_.data());
+    steps.propagation(ref_, rows(), bench.disparity, bench.confidence, bench.radiance, rows(), 0,
+                      {}, bench.estimates);
   else
-    backend.downsample({0, (shape_.height + 1) / 2}, small_.data());
+    steps.downsample({0, (shape_.height + 1) / 2}, bench.small, 0);
+  steps.finish();
 }
 
-std::vector<float> KernelTrial::output(Backend& backend, const std::string& kernel) {
+std::vector<float> KernelTrial::output(TrialBench& bench, const std::string& kernel) const {
+  Workspace& steps = *bench.workspace;
   std::vector<float> values;
+  const auto add = [&](const auto& map) { append(values, steps.get(map), rows()); };
   if (kernel == "density_score" || kernel == "robust_score" || kernel == "score_support" ||
       kernel == "slanted_support") {
     for (int v = 0; v < shape_.height; ++v)
       for (int u = 0; u < shape_.width; ++u) {
-        const std::vector<float> scores = backend.scores_at(u, v);
+        const std::vector<float> scores = steps.scores_at(u, v);
         values.insert(values.end(), scores.begin(), scores.end());
       }
   } else if (kernel == "scanline") {  // what it leaves shows in the winners
-    backend.winner(rows(), todo_, bounds_, map_, second_map_);
-    append(values, map_, rows());
+    steps.winner(rows(), bench.todo, bench.bounds, bench.map, bench.second_map);
+    add(bench.map);
   } else if (kernel == "winner") {
-    append(values, map_, rows());
-    append(values, second_map_, rows());
+    add(bench.map);
+    add(bench.second_map);
   } else if (kernel == "slope_fit") {
-    append(values, fitted_slopes_, rows());
+    add(bench.fitted_slopes);
   } else if (kernel == "mean_radiance") {
-    append(values, mean_radiance_, rows());
+    add(bench.mean_radiance);
     for (int i = 0, v = 0; v < shape_.height; ++v)  // undefined where there is no estimate
       for (int u = 0; u < shape_.width; ++u, i += 3)
         if (std::isnan(disparity_.row(v)[u])) std::fill_n(values.begin() + i, 3, kNoEstimate);
   } else if (kernel == "propagation") {
-    for (const PackedEstimate estimate : estimates_) {
+    std::vector<PackedEstimate> estimates(bench.estimates.memory->bytes() / sizeof(PackedEstimate));
+    steps.read(*bench.estimates.memory, std::as_writable_bytes(std::span(estimates)));
+    for (const PackedEstimate estimate : estimates) {
       values.push_back(hypothesis_of(estimate));
       values.push_back(confidence_of(estimate));
     }
-  } else if (kernel == "downsample") {
-    values = small_;
-  } else if (kernel == "unpack_channels") {
-    backend.downsample({0, (shape_.height + 1) / 2}, small_.data());  // the band can't be read
-    values = small_;
+  } else if (kernel == "downsample" || kernel == "unpack_channels") {
+    // The band can't be read.
+    if (kernel == "unpack_channels") steps.downsample({0, (shape_.height + 1) / 2}, bench.small, 0);
+    values.resize(std::size_t((shape_.height + 1) / 2) * num_views() * 3 *
+                  ((shape_.width + 1) / 2));
+    steps.read(*bench.small.memory, std::as_writable_bytes(std::span(values)));
   } else {
-    append(values, map_, rows());
+    add(bench.map);
   }
   return values;
 }
 
-std::vector<float> KernelTrial::answer(Backend& backend, const std::string& kernel) {
-  std::fill(estimates_.begin(), estimates_.end(), 0);
-  prepare(backend, kernel);
-  run(backend, kernel);
-  return output(backend, kernel);
+std::vector<float> KernelTrial::answer(TrialBench& bench, const std::string& kernel) const {
+  prepare(bench, kernel);
+  run(bench, kernel);
+  return output(bench, kernel);
 }
 
 Agreement KernelTrial::compare(const std::string& kernel, const std::vector<float>& expected,

@@ -7,9 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "gigaray/backend.h"
 #include "gigaray/samplers/any_sampler.h"
-#include "opencl/opencl_backend.h"
+#include "opencl/opencl_workspace.h"
 
 namespace gigaray {
 
@@ -23,7 +22,7 @@ struct TrialShape {
   DisparityRange disparity{-0.5, 0.5};
 };
 
-/// How far the answers of two backends are apart.
+/// How far the answers of two workspaces are apart.
 struct Agreement {
   double largest = 0;      ///< Largest difference.
   double share_apart = 0;  ///< Share of values beyond the tolerance, or NaN on one side only.
@@ -32,6 +31,18 @@ struct Agreement {
   /// hypotheses may score alike. A wrong lane or a wrong edge is more than that on pictures as
   /// narrow as check_shape()'s.
   bool good() const { return share_apart <= 0.01; }
+};
+
+/// A workspace with a band loaded, and maps that the steps read and write.
+struct TrialBench {
+  std::unique_ptr<Workspace> workspace;
+  EncodedRows pixels;
+  Map<std::uint8_t> todo;
+  Map<HypothesisBounds> bounds;
+  Map<float> disparity, confidence, map, second_map;
+  Map<Radiance> radiance, mean_radiance;
+  Map<Slope> slopes, fitted_slopes;
+  RowsOnDevice estimates, small;
 };
 
 /// One step of the method on a small synthetic light field, to check its answer and to time it:
@@ -43,22 +54,21 @@ class KernelTrial {
   /// The pictures to check on: small, so that the reference is quick, and no multiple of any LANES.
   static TrialShape check_shape(const TrialShape& shape);
 
-  /// Renders the light field. options: what the backends are set up with, as they are.
+  /// Renders the light field. options: what the workspaces are set up with, as they are.
   KernelTrial(const TrialShape& shape, const DepthOptions& options);
 
-  /// Backends with the band loaded.
-  std::unique_ptr<Backend> reference() const;
-  std::unique_ptr<Backend> opencl(const std::string& device,
-                                  const opencl::TuningOverrides& overrides = {}) const;
+  std::unique_ptr<TrialBench> reference() const;
+  std::unique_ptr<TrialBench> opencl(const std::string& device,
+                                     const opencl::TuningOverrides& overrides = {}) const;
 
   /// Makes ready what the kernel takes from earlier steps.
-  void prepare(Backend& backend, const std::string& kernel) const;
-  /// The step itself, on all rows; what is to be timed.
-  void run(Backend& backend, const std::string& kernel);
+  void prepare(TrialBench& bench, const std::string& kernel) const;
+  /// The step itself, on all rows, to its end; what is to be timed.
+  void run(TrialBench& bench, const std::string& kernel) const;
   /// The result of the last run() in a fixed order.
-  std::vector<float> output(Backend& backend, const std::string& kernel);
+  std::vector<float> output(TrialBench& bench, const std::string& kernel) const;
   /// prepare, run, output.
-  std::vector<float> answer(Backend& backend, const std::string& kernel);
+  std::vector<float> answer(TrialBench& bench, const std::string& kernel) const;
 
   static Agreement compare(const std::string& kernel, const std::vector<float>& expected,
                            const std::vector<float>& actual);
@@ -68,22 +78,21 @@ class KernelTrial {
 
  private:
   RowRange rows() const { return {0, shape_.height}; }
-  void load(Backend& backend) const;
+  std::unique_ptr<TrialBench> make_bench(std::unique_ptr<Workspace> workspace) const;
+  void load(TrialBench& bench) const;
 
   TrialShape shape_;
-  BackendSetup setup_;
+  WorkspaceSetup setup_;
   AnySampler sampler_;
   std::vector<std::uint8_t> encoded_;  ///< [row][view][u][3]
   int ref_ = 0;
 
-  // Inputs and results of the steps.
+  // Inputs of the steps.
   StripMap<std::uint8_t> todo_;
   StripMap<HypothesisBounds> bounds_;
-  StripMap<float> disparity_, confidence_, map_, second_map_;
-  StripMap<Radiance> radiance_, mean_radiance_;
-  StripMap<Slope> slopes_, fitted_slopes_;
-  std::vector<PackedEstimate> estimates_;
-  std::vector<float> small_;
+  StripMap<float> disparity_, confidence_;
+  StripMap<Radiance> radiance_;
+  StripMap<Slope> slopes_;
 };
 
 }  // namespace gigaray

@@ -99,7 +99,7 @@ class Judge {
   }
 
  private:
-  double seconds_of_run(Backend& backend) {
+  double seconds_of_run(TrialBench& backend) {
     using Clock = std::chrono::steady_clock;
     const auto begin = Clock::now();
     timed_.run(backend, kernel_);

@@ -132,6 +132,9 @@ struct DepthOptions {
   /// Where large intermediate data go when memory does not hold them. Empty: the folder for
   /// temporary files. Nothing is left there, even after a crash.
   std::string work_folder;
+  /// Keep what Reconstruction::decision() tells the searched bounds from; 16 bytes per pixel of the
+  /// coarser levels.
+  bool keep_searches = false;
 
   /// Throws Error(kInvalidArgument) naming the field and its value.
   void check() const;

@@ -2,18 +2,24 @@
 // Copyright (c) 2026 The Gigaray authors
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <map>
 #include <memory>
 #include <string>
 #include <vector>
 
-#include "gigaray/backend.h"
 #include "gigaray/depth_options.h"
 #include "gigaray/light_field.h"
+#include "gigaray/ray_sampler.h"
 #include "gigaray/run_control.h"
 
 namespace gigaray {
+
+/// Mean radiance of an estimate, working colour space.
+struct Radiance {
+  float r = 0, g = 0, b = 0;
+};
 
 /// A line segment of the light field: an accepted estimate (section 3), an element of Γ.
 struct RayTuple {
@@ -64,12 +70,13 @@ struct Decision {
   /// around.
   int view = -1, u = -1, v = -1;
   float disparity = kNoEstimate;  ///< As found, before the final median; unit of ViewDepth
-  /// What was searched there: a part of the range where estimates of finer levels bound it.
+  /// What was searched there: a part of the range where estimates of finer levels bound it. All of
+  /// the range without DepthOptions::keep_searches.
   DisparityRange bounds;
 };
 
-/// Result of a run; keeps the estimates of all levels (in memory or on disk) and makes the maps of
-/// a view when asked. Movable. Not thread-safe.
+/// Result of a run: maps of all views that were asked for and tuples, in memory or on disk. Needs
+/// no device. Movable; any number of threads may read.
 class Reconstruction {
  public:
   struct Impl;
@@ -86,8 +93,9 @@ class Reconstruction {
   const std::vector<int>& views() const;  ///< Views that have depth.
   int num_levels() const;
 
-  /// Fills coarse estimates down to level 0 (section 4.5). view_idx: one of views().
-  ViewDepth view(int view_idx);
+  /// Maps of a view at level 0, with coarse estimates where finer levels have none (section 4.5).
+  /// view_idx: one of views(). Throws Error(kInvalidArgument) for others.
+  ViewDepth view(int view_idx) const;
 
   /// Why pixel (u, v) of one of views() has its estimate. Throws Error(kInvalidArgument) outside.
   Decision decision(int view_idx, int u, int v) const;

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Gigaray authors
-#include "gigaray/backend.h"
+#include "estimates.h"
 
 #include <algorithm>
 #include <bit>
 #include <limits>
-
-#include "gigaray/srgb.h"
 
 namespace gigaray {
 
@@ -15,11 +13,6 @@ PackedEstimate pack_estimate(float hypothesis, float confidence) {
   const auto bits = std::bit_cast<std::uint32_t>(hypothesis);
   const std::uint32_t key = bits & 0x80000000u ? ~bits : bits | 0x80000000u;
   return PackedEstimate(key) << 32 | std::bit_cast<std::uint32_t>(std::max(confidence, 0.0f));
-}
-
-float bar_of(PackedEstimate own, float finished_lead) {
-  if (own == 0) return 0;
-  return std::max(finished_lead * confidence_of(own), std::numeric_limits<float>::min());
 }
 
 float hypothesis_of(PackedEstimate estimate) {
@@ -32,13 +25,9 @@ float confidence_of(PackedEstimate estimate) {
   return std::bit_cast<float>(std::uint32_t(estimate));
 }
 
-std::vector<float> colour_table(int bit_depth, bool linear_rgb) {
-  std::vector<float> table(std::size_t(1) << bit_depth);
-  for (std::size_t i = 0; i < table.size(); ++i) {
-    const double x = double(i) / double(table.size() - 1);
-    table[i] = float(linear_rgb ? linear_from_srgb(x) : x);
-  }
-  return table;
+float bar_of(PackedEstimate own, float finished_lead) {
+  if (own == 0) return -1;
+  return std::max(finished_lead * confidence_of(own), std::numeric_limits<float>::min());
 }
 
 }  // namespace gigaray

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Gigaray authors
-#include "search_bounds.h"
+#include "reference/search_bounds.h"
 
 #include <algorithm>
 #include <cmath>
-
-#include "morphology.h"
 
 namespace gigaray {
 namespace {
@@ -77,13 +75,13 @@ HypothesisBounds bounds_of(const Search& search, const HypothesisRange& range) {
   return hypotheses_between({search.low, search.high}, 1, range);
 }
 
-void bound_thin_holes(const StripMap<std::uint8_t>& todo, const StripMap<float>& estimates,
-                      const HypothesisRange& range, StripMap<HypothesisBounds>& bounds) {
-  constexpr int kThin = 3, kAround = 2 * kThin;  // px
-  constexpr int kMargin = 8;                     // hypotheses
+void bound_thin_holes(RowRange rows, MapView<const std::uint8_t> todo,
+                      MapView<const std::uint8_t> wide, MapView<const float> estimates,
+                      const HypothesisRange& range, MapView<HypothesisBounds> bounds) {
+  constexpr int kAround = 2 * kThinHole;  // px
+  constexpr int kMargin = 8;              // hypotheses
   const int width = todo.width(), height = todo.rows().size();
-  const StripMap<std::uint8_t> wide = open_mask(todo, todo.rows(), height, kThin);
-  for (int v = 0; v < height; ++v)
+  for (int v = rows.begin; v < rows.end; ++v)
     for (int u = 0; u < width; ++u) {
       if (!todo.row(v)[u] || wide.row(v)[u]) continue;
       Interval around;

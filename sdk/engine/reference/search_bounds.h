@@ -4,18 +4,12 @@
 
 #include <span>
 
-#include "gigaray/backend.h"
+#include "gigaray/ray_sampler.h"
+#include "src/estimates.h"
+#include "src/strip_map.h"
+#include "src/workspace.h"
 
 namespace gigaray {
-
-/// What a pixel of a coarser level knows from the finer ones.
-struct Search {
-  float low = kNoEstimate;   ///< Bounds of its search; NaN: it needs none, all finer pixels have
-  float high = kNoEstimate;  ///< an estimate
-  float known_low =
-      kNoEstimate;  ///< Least and greatest estimate of the finer pixels that have one;
-  float known_high = kNoEstimate;  ///< NaN: none has
-};
 
 /// Depth bounds of one level down (section 4.5). A pixel without an estimate gets the least and the
 /// greatest of the nearest reliable estimates to its left and right; a side without one leaves the
@@ -30,8 +24,10 @@ void coarsen_bounds(std::span<const PackedEstimate> estimates, std::span<const S
 /// the surfaces around them. Their pixels get narrower bounds: from the least to the greatest
 /// estimate around, with a margin in which a peak of the score and what lies beside it find room.
 ///   todo, estimates  of a whole view; an estimate is NaN where there is none
-void bound_thin_holes(const StripMap<std::uint8_t>& todo, const StripMap<float>& estimates,
-                      const HypothesisRange& range, StripMap<HypothesisBounds>& bounds);
+///   wide             todo opened by kThinHole, which leaves the other pixels
+void bound_thin_holes(RowRange rows, MapView<const std::uint8_t> todo,
+                      MapView<const std::uint8_t> wide, MapView<const float> estimates,
+                      const HypothesisRange& range, MapView<HypothesisBounds> bounds);
 
 /// The hypotheses between the bounds of a search, one more on both sides.
 HypothesisBounds bounds_of(const Search& search, const HypothesisRange& range);

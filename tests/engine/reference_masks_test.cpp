@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Gigaray authors
-#include "src/morphology.h"
+#include "reference/masks.h"
 
 #include <gtest/gtest.h>
 
@@ -88,13 +88,13 @@ TEST(OpenMask, ABandGivesTheSameRowsAsThePicture) {
   }
 }
 
-TEST(Dilate, GrowsASquareAndCoversAllBounds) {
+TEST(GrowTodo, GrowsASquareAndCoversAllBounds) {
   StripMap<std::uint8_t> todo(9, {0, 7});
   StripMap<HypothesisBounds> bounds(9, {0, 7});
   todo.row(3)[2] = todo.row(5)[6] = 1;
   bounds.row(3)[2] = {4, 9};
   bounds.row(5)[6] = {7, 20};
-  dilate(2, 7, todo, bounds);
+  grow_todo(2, 7, todo, bounds);
   for (int v = 0; v < 7; ++v)
     for (int u = 0; u < 9; ++u) {
       const bool first = std::abs(u - 2) <= 2 && std::abs(v - 3) <= 2;

@@ -1,21 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Gigaray authors
-#include "morphology.h"
+#include "reference/masks.h"
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
+#include <utility>
 
 namespace gigaray {
 namespace {
 
-std::uint8_t least(std::uint8_t a, std::uint8_t b) { return std::min(a, b); }
-std::uint8_t most(std::uint8_t a, std::uint8_t b) { return std::max(a, b); }
-
-/// Minimum or maximum over a pixel and its four neighbours; outside the picture nothing counts.
+/// Minimum or maximum over a pixel and its four neighbours.
 template <class Pick>
-StripMap<std::uint8_t> over_cross(const StripMap<std::uint8_t>& in, RowRange rows, int height,
-                                  Pick pick) {
-  StripMap<std::uint8_t> out(in.width(), rows);
+void over_cross(RowRange rows, int height, MapView<const std::uint8_t> in,
+                MapView<std::uint8_t> out, Pick pick) {
   for (int v = rows.begin; v < rows.end; ++v) {
     const std::uint8_t* above = in.row(std::max(v - 1, 0));
     const std::uint8_t* here = in.row(v);
@@ -23,26 +21,38 @@ StripMap<std::uint8_t> over_cross(const StripMap<std::uint8_t>& in, RowRange row
     for (int u = 0; u < in.width(); ++u) {
       const std::uint8_t left = here[std::max(u - 1, 0)];
       const std::uint8_t right = here[std::min(u + 1, in.width() - 1)];
-      out.row(v)[u] = pick(pick(pick(above[u], below[u]), pick(left, right)), here[u]);
+      out.row(v)[u] = pick({above[u], below[u], left, right, here[u]});
     }
   }
-  return out;
 }
 
 }  // namespace
 
+void erode(RowRange rows, int height, MapView<const std::uint8_t> in, MapView<std::uint8_t> out) {
+  over_cross(rows, height, in, out,
+             [](std::initializer_list<std::uint8_t> cross) { return std::min(cross); });
+}
+
+void dilate(RowRange rows, int height, MapView<const std::uint8_t> in, MapView<std::uint8_t> out) {
+  over_cross(rows, height, in, out,
+             [](std::initializer_list<std::uint8_t> cross) { return std::max(cross); });
+}
+
 StripMap<std::uint8_t> open_mask(const StripMap<std::uint8_t>& mask, RowRange rows, int height,
                                  int radius) {
   StripMap<std::uint8_t> open = mask;
-  for (int i = 2 * radius - 1; i >= radius; --i)
-    open = over_cross(open, grown(rows, i, height), height, least);
-  for (int i = radius - 1; i >= 0; --i)
-    open = over_cross(open, grown(rows, i, height), height, most);
+  const auto pass = [&](int around, auto step) {
+    StripMap<std::uint8_t> next(mask.width(), grown(rows, around, height));
+    step(next.rows(), height, MapView<const std::uint8_t>(open), next.view());
+    open = std::move(next);
+  };
+  for (int i = 2 * radius - 1; i >= radius; --i) pass(i, [](auto... all) { erode(all...); });
+  for (int i = radius - 1; i >= 0; --i) pass(i, [](auto... all) { dilate(all...); });
   return open;
 }
 
-void dilate(int radius, int height, StripMap<std::uint8_t>& todo,
-            StripMap<HypothesisBounds>& bounds) {
+void grow_todo(int radius, int height, StripMap<std::uint8_t>& todo,
+               StripMap<HypothesisBounds>& bounds) {
   const int width = todo.width();
   const RowRange rows = todo.rows();
   GIGARAY_CHECK((rows == RowRange{0, height}));
@@ -111,13 +121,6 @@ StripMap<std::uint8_t> close_cracks(int width, float apart, StripMap<float>& est
   return filled;
 }
 
-bool any_set(const StripMap<std::uint8_t>& mask, RowRange rows) {
-  for (int v = rows.begin; v < rows.end; ++v)
-    if (std::any_of(mask.row(v), mask.row(v) + mask.width(), [](auto x) { return x != 0; }))
-      return true;
-  return false;
-}
-
 StripMap<std::uint8_t> beside_jumps(const StripMap<float>& map, float jump, int reach) {
   const int width = map.width();
   const RowRange rows = map.rows();
@@ -128,7 +131,7 @@ StripMap<std::uint8_t> beside_jumps(const StripMap<float>& map, float jump, int 
       beside.row(v)[u] = (u + 1 < width && differ(map.row(v)[u], map.row(v)[u + 1])) ||
                          (v + 1 < rows.end && differ(map.row(v)[u], map.row(v + 1)[u]));
   StripMap<HypothesisBounds> unused(width, rows);
-  dilate(reach, rows.end, beside, unused);
+  grow_todo(reach, rows.end, beside, unused);
   return beside;
 }
 

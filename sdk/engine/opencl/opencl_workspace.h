@@ -6,18 +6,18 @@
 #include <memory>
 #include <string>
 
-#include "gigaray/backend.h"
 #include "opencl/tuning.h"
+#include "src/make_workspace.h"
 
 namespace gigaray::opencl {
 
 /// Parameters by kernel that win over those of lookup_tuning().
 using TuningOverrides = std::map<std::string, Tuning>;
 
-/// make_opencl_backend() with other compile-time parameters: what tuning tries.
+/// make_opencl_workspace() with other compile-time parameters: what tuning tries.
 template <RaySampler S>
-std::unique_ptr<Backend> make_tuned_backend(const S& sampler, const BackendSetup& setup,
-                                            const std::string& device_selection,
-                                            const TuningOverrides& overrides);
+std::unique_ptr<Workspace> make_tuned_workspace(const S& sampler, const WorkspaceSetup& setup,
+                                                const std::string& device_selection,
+                                                const TuningOverrides& overrides);
 
 }  // namespace gigaray::opencl

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Gigaray authors
+// Scores of a strip and what chooses among them.
+#include <algorithm>
+
+#include "opencl/device_workspace.h"
+
+namespace gigaray::opencl {
+namespace {
+
+/// Floats beside the states of a scan-line, see scanline.cl.
+constexpr int kScanlineMargin = 16;
+
+}  // namespace
+
+void DeviceWorkspace::density_score(int ref, RowRange rows, const Map<std::uint8_t>& todo,
+                                    const Map<HypothesisBounds>& bounds) {
+  const ScoreOptions& score = setup_.options.score;
+  const std::string options = score_defines() + (score.stop_early ? "" : " -DMOVE_BOUND=0.0f");
+  LaneKernel& kernel = lane_kernel("density_score", options);
+  Buffer& scores = raw_volume(rows);
+  const float floor_views = score.floor_views * float(band_.num_views);
+  const int min_views = least_views(band_.num_views);
+  const LocalMemory staged = kernel.vectors(kernel.staged ? kStagedVectors * band_.num_views : 1);
+  const bool packs =
+      kernel.staged && kernel.lanes > 1 && !score.cubic && all_views_.rays_shift_alike;
+  if (packs) {
+    Buffer& counts = counts_.at_least(device_, (rows.size() + 1) * sizeof(int));
+    Buffer& together = together_.at_least(device_, std::size_t(band_.height) * band_.stride);
+    run_rows("find_lonely", rows, kernel.lanes, buffer_of(todo), together, counts);
+    sum_counts(rows.size(), counts);
+  }
+  kernel.kernel.set_args(band_memory_.buffer, samples(), band_, strip(ref, rows), ways(ref),
+                         hypotheses_, packs ? together_.buffer : buffer_of(todo), buffer_of(bounds),
+                         score.bandwidth, min_views, floor_views, scores, staged);
+  kernel.run(band_.width, rows.size());
+  if (!packs) return;
+  // As many as can stand alone; blocks beyond the end do nothing.
+  LaneKernel& sparse = lane_kernel("density_score", options, "density_score_packed");
+  const std::size_t blocks_of_row = round_up(band_.width, kernel.lanes) / kernel.lanes;
+  const std::size_t most = blocks_of_row * (kernel.lanes / 2) * rows.size();
+  Buffer& packed = packed_.at_least(device_, most * 2 * sizeof(int));
+  run_rows("pack_lonely", rows, kernel.lanes, buffer_of(todo), counts_.buffer, packed);
+  sparse.kernel.set_args(band_memory_.buffer, band_, strip(ref, rows), ways(ref), hypotheses_,
+                         packed, counts_.buffer, buffer_of(bounds), score.bandwidth, min_views,
+                         floor_views, scores, staged);
+  sparse.run(int(most), 1);
+}
+
+void DeviceWorkspace::robust_score(int ref, RowRange rows, const Map<std::uint8_t>& todo,
+                                   const Map<HypothesisBounds>& bounds, ScoreViews views) {
+  const ScoreOptions score = means_ ? against_means(setup_.options.score) : setup_.options.score;
+  const bool halves = views == ScoreViews::kHalfPlanes;
+  LaneKernel& kernel =
+      lane_kernel("robust_score",
+                  define("CUBIC", score.cubic) + define("HALF_PLANES", halves) + masked_define());
+  const ViewSet& members = view_set(ref, views);
+  Buffer& scores = raw_volume(rows);
+  const float floor_views = (halves ? kLeastHalfPlane : score.floor_views) * float(members.used);
+  const OwnPixels own = reference_pixels(ref);
+  kernel.kernel.set_args(samples(), band_, strip(ref, rows), own.buffer, own.band, own.view,
+                         ways(ref), hypotheses_, buffer_of(todo), buffer_of(bounds), members.buffer,
+                         score.bandwidth, score.gradient_bandwidth, score.gradient_share,
+                         least_views(members.used), floor_views, scores);
+  kernel.run(band_.width, rows.size());
+}
+
+void DeviceWorkspace::score_support(int ref, RowRange rows, const Map<std::uint8_t>& todo,
+                                    const Map<HypothesisBounds>& bounds) {
+  const OwnPixels own = reference_pixels(ref);
+  const SupportOptions& support = setup_.options.support;
+  LaneKernel& kernel = lane_kernel("score_support", define("RADIUS", support.radius));
+  Buffer& supported = supported_scores_.at_least(device_, volume_bytes(rows));
+  kernel.kernel.set_args(own.buffer, own.band, own_strip(own.view, rows), hypotheses_,
+                         buffer_of(todo), buffer_of(bounds), raw_scores_.buffer, raw_rows_.begin,
+                         support.sigma_colour, support.sigma_space, supported);
+  kernel.run_pixels(band_.width, rows.size());
+  winner_reads(supported_scores_, rows);
+}
+
+void DeviceWorkspace::slanted_support(int ref, RowRange rows, const Map<std::uint8_t>& todo,
+                                      const Map<HypothesisBounds>& bounds,
+                                      const Map<Slope>& slopes) {
+  const OwnPixels own = reference_pixels(ref);
+  const SupportOptions& support = setup_.options.support;
+  LaneKernel& kernel =
+      lane_kernel("score_support", define("RADIUS", support.radius), "slanted_support");
+  Buffer& supported = supported_scores_.at_least(device_, volume_bytes(rows));
+  kernel.kernel.set_args(own.buffer, own.band, own_strip(own.view, rows), hypotheses_,
+                         buffer_of(todo), buffer_of(bounds), buffer_of(slopes), raw_scores_.buffer,
+                         raw_rows_.begin, support.sigma_colour, support.sigma_space, supported);
+  kernel.run_pixels(band_.width, rows.size());
+  winner_reads(supported_scores_, rows);
+}
+
+void DeviceWorkspace::scanline(int ref, RowRange rows, const Map<std::uint8_t>& todo) {
+  const OwnPixels own = reference_pixels(ref);
+  GIGARAY_CHECK(rows.begin % kScanlineBlock == 0 && winner_scores_ == &supported_scores_);
+  const SupportOptions& support = setup_.options.support;
+  LaneKernel& kernel = lane_kernel("scanline", "");
+  Buffer& paths = path_scores_.at_least(device_, volume_bytes(score_rows_));
+  const std::size_t states = 2 * (hypotheses_.pitch + 2 * kScanlineMargin) + kernel.group;
+  const int blocks = (rows.size() + kScanlineBlock - 1) / kScanlineBlock;
+  const int directions[4][2] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}};
+  for (int i = 0; i < 4; ++i) {
+    const auto [du, dv] = directions[i];
+    kernel.kernel.set_args(own.buffer, own.band, own_strip(own.view, rows), hypotheses_,
+                           buffer_of(todo), supported_scores_.buffer, score_rows_.begin, du, dv,
+                           support.small_price, support.jump_price, support.jump_sigma_colour,
+                           int(i > 0), paths, LocalMemory{states * sizeof(float)});
+    const std::size_t group = kernel.group;
+    if (dv == 0)
+      kernel.kernel.run(WorkSize(rows.size() * group, 1), WorkSize(group, 1));
+    else
+      kernel.kernel.run(WorkSize(band_.width * group, blocks), WorkSize(group, 1));
+  }
+  chosen_by_ = &path_scores_;
+}
+
+std::vector<float> DeviceWorkspace::scores_at(int u, int v) {
+  GIGARAY_CHECK(score_rows_.contains(v));
+  std::vector<float> scores(setup_.hypotheses.count);
+  const std::size_t pixel = std::size_t(v - score_rows_.begin) * band_.width + u;
+  winner_scores_->buffer.read(std::span(scores),
+                              (GIGARAY_PAD + pixel * hypotheses_.pitch) * sizeof(float));
+  return scores;
+}
+
+void DeviceWorkspace::winner(RowRange rows, const Map<std::uint8_t>& todo,
+                             const Map<HypothesisBounds>& bounds, const Map<float>& disparity,
+                             const Map<float>& contrast) {
+  GIGARAY_CHECK(rows.begin >= score_rows_.begin && rows.end <= score_rows_.end);
+  LaneKernel& kernel = lane_kernel("winner", define("REFINE", setup_.options.winner.refine));
+  const int search = chosen_by_ == winner_scores_ ? 0 : kScanlineSearch;
+  kernel.kernel.set_args(strip(rows), hypotheses_, buffer_of(todo), buffer_of(bounds),
+                         chosen_by_->buffer, winner_scores_->buffer, score_rows_.begin, search,
+                         buffer_of(disparity), buffer_of(contrast));
+  kernel.run_pixels(band_.width, rows.size());
+}
+
+void DeviceWorkspace::score_of_estimate(RowRange rows, const Map<std::uint8_t>& todo,
+                                        const Map<float>& disparity, const Map<float>& scores) {
+  GIGARAY_CHECK(rows.begin >= score_rows_.begin && rows.end <= score_rows_.end);
+  LaneKernel& kernel = lane_kernel("winner", "", "score_of_estimate");
+  kernel.kernel.set_args(strip(rows), hypotheses_, buffer_of(todo), winner_scores_->buffer,
+                         score_rows_.begin, buffer_of(disparity), disparity.rows().begin,
+                         buffer_of(scores));
+  kernel.run_pixels(band_.width, rows.size());
+}
+
+}  // namespace gigaray::opencl

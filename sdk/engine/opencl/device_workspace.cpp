@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Gigaray authors
+#include "opencl/device_workspace.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "src/band_views.h"
+
+namespace gigaray::opencl {
+namespace {
+
+static_assert(kMapPad == GIGARAY_PAD);
+static_assert(kScanlineBlock == SCANLINE_BLOCK && kScanlineReach == SCANLINE_REACH);
+
+/// Lanes never reach beyond this many hypotheses of a pixel.
+constexpr int kWidestLanes = 16;
+
+}  // namespace
+
+class DeviceWorkspace::DeviceMemory : public Memory {
+ public:
+  explicit DeviceMemory(Buffer memory) : Memory(memory.bytes()), buffer(std::move(memory)) {}
+  Buffer buffer;
+};
+
+DeviceWorkspace::DeviceWorkspace(SamplerTwin sampler, const WorkspaceSetup& setup, Device device,
+                                 TuningOverrides overrides)
+    : all_views_(std::move(sampler)),
+      setup_(setup),
+      device_(std::move(device)),
+      kernels_(device_, all_views_.kernel_file,
+               define("CHANNELS", channels()) + define("SHIFT_ALIKE", all_views_.rays_shift_alike),
+               all_views_.num_views, std::move(overrides)),
+      table_(colour_table(setup.bit_depth, setup.options.score.linear_rgb)) {
+  hypotheses_ = {float(setup.hypotheses.min), float(setup.hypotheses.step()),
+                 setup.hypotheses.count, int(round_up(setup.hypotheses.count, kWidestLanes))};
+  table_buffer_ = Buffer(device_, std::span<const float>(table_));
+}
+
+std::string DeviceWorkspace::description() const {
+  return device_.info().name + " (" + device_.info().platform + ")";
+}
+
+// ---- Memory -------------------------------------------------------------------------------------
+
+std::shared_ptr<Memory> DeviceWorkspace::allocate(std::size_t bytes) {
+  return std::make_shared<DeviceMemory>(Buffer::zeroed(device_, std::max<std::size_t>(bytes, 1)));
+}
+
+std::shared_ptr<Memory> DeviceWorkspace::adopt(std::span<std::byte> host) {
+  if (device_.info().shares_host_memory)
+    return std::make_shared<DeviceMemory>(Buffer::over_host_memory(device_, host));
+  auto memory = std::make_shared<DeviceMemory>(Buffer(device_, host.size()));
+  write(*memory, host, 0);
+  return memory;
+}
+
+void DeviceWorkspace::write(Memory& memory, std::span<const std::byte> data, std::size_t offset) {
+  static_cast<DeviceMemory&>(memory).buffer.write(data, offset);
+  traffic_.bytes_up += data.size();
+  ++traffic_.waits;
+}
+
+void DeviceWorkspace::read(const Memory& memory, std::span<std::byte> data, std::size_t offset) {
+  buffer_of(&memory).read(data, offset);
+  traffic_.bytes_down += data.size();
+  ++traffic_.waits;
+  device_.log()->collect();
+}
+
+void DeviceWorkspace::read_later(const Memory& memory, std::span<std::byte> data) {
+  buffer_of(&memory).read_later(data);
+  traffic_.bytes_down += data.size();
+}
+
+void DeviceWorkspace::finish() {
+  device_.finish();
+  ++traffic_.waits;
+  device_.log()->collect();
+}
+
+const Buffer& DeviceWorkspace::buffer_of(const Memory* memory) const {
+  return memory ? static_cast<const DeviceMemory*>(memory)->buffer : table_buffer_;
+}
+
+// ---- Pixels -------------------------------------------------------------------------------------
+
+void DeviceWorkspace::set_active_views(const std::vector<int>& views) { active_views_ = views; }
+
+void DeviceWorkspace::begin_level(const LevelShape& shape) {
+  level_ = shape.level;
+  band_.width = shape.width;
+  band_.height = shape.height;
+  band_.stride = map_pitch(shape.width);
+  loaded_views_.clear();
+  places_.clear();
+}
+
+void DeviceWorkspace::load_band(RowRange rows, const std::vector<int>& views,
+                                const EncodedRows& source) {
+  restore_reference();
+  see_views(views);
+  band_.row_begin = rows.begin;
+  band_.row_end = rows.end;
+  if (at_ != source.at) {
+    at_ = source.at;
+    at_buffer_ = Buffer(device_, std::span<const int>(at_));
+  }
+  const int bits = source.encoding == BandEncoding::kBits8    ? 8
+                   : source.encoding == BandEncoding::kBits16 ? 16
+                                                              : 32;
+  const std::size_t lines = std::size_t(rows.size()) * band_.num_views;
+  Buffer& band = band_memory_.at_least(device_, lines * channels() * band_.stride * sizeof(float));
+  const std::string options = define("SOURCE_BITS", bits);
+  const WorkSize all(band_.num_views, rows.size());
+  plain_kernel("unpack_channels", "unpack_colours", options)
+      .set_args(buffer_of(source.pixels), source.pixels.begin, source.pixels.stored_views,
+                at_buffer_, table_buffer_, band_, band)
+      .run(all, WorkSize(1, 1));
+  if (setup_.options.score.gradient)
+    plain_kernel("unpack_channels", "unpack_gradients", options)
+        .set_args(band_, band)
+        .run(all, WorkSize(1, 1));
+  const ShownRows& shown = source.shown;
+  is_masked_ = bool(shown.rows);
+  if (is_masked_)
+    plain_kernel("unpack_channels", "mask_pixels", options)
+        .set_args(buffer_of(shown.rows), shown.rows.begin, shown.width, shown.shift,
+                  shown.rows.stored_views, at_buffer_, kMaskedColour, band_, band)
+        .run(all, WorkSize(1, 1));
+  if (!all_views_.rays_shift_alike) {
+    const std::size_t tap_bytes = (channels() > 3 ? 8 : 4) * sizeof(float);
+    Buffer& taps = taps_.at_least(device_, lines * (band_.width + 1) * tap_bytes);
+    plain_kernel("unpack_channels", "interleave_taps", options)
+        .set_args(band, band_, taps)
+        .run(all, WorkSize(1, 1));
+  }
+}
+
+void DeviceWorkspace::downsample(RowRange small_rows, const RowsOnDevice& small, int first) {
+  const int small_width = (band_.width + 1) / 2;
+  LaneKernel& kernel = lane_kernel("downsample", "");
+  kernel.kernel.set_args(band_memory_.buffer, band_, small_width, small_rows.begin, small.begin,
+                         small.stored_views, first, buffer_of(small));
+  kernel.run(small_width, small_rows.size(), band_.num_views);
+}
+
+void DeviceWorkspace::ray_mean(int ref, RowRange rows, const Map<std::uint8_t>& wanted,
+                               const Map<float>& disparity, const Map<float>& means) {
+  LaneKernel& kernel = lane_kernel("ray_mean", define("CUBIC", setup_.options.score.cubic));
+  kernel.kernel.set_args(band_memory_.buffer, band_, strip(ref, rows), rays(ref), buffer_of(wanted),
+                         buffer_of(disparity), setup_.options.score.bandwidth, buffer_of(means));
+  kernel.run_pixels(band_.width, rows.size());
+}
+
+void DeviceWorkspace::replace_reference(const Map<float>& means) {
+  means_ = means;
+  if (!setup_.options.score.gradient) return;
+  const OwnPixels own = reference_pixels(0);
+  plain_kernel("unpack_channels", "unpack_gradients", define("SOURCE_BITS", 32))
+      .set_args(own.band, own.buffer)
+      .run(WorkSize(1, band_.height), WorkSize(1, 1));
+}
+
+DeviceWorkspace::OwnPixels DeviceWorkspace::reference_pixels(int ref) const {
+  if (!means_) return {band_memory_.buffer, band_, place_of(places_, ref)};
+  BandParams own = band_;
+  own.num_views = 1;
+  own.row_begin = 0;
+  own.row_end = band_.height;
+  return {buffer_of(means_), own, 0};
+}
+
+const DeviceWorkspace::ViewSet& DeviceWorkspace::view_set(int ref, ScoreViews views) {
+  ViewSet& set = view_sets_[views];
+  if (set.ref == ref) return set;
+  const std::vector<std::uint8_t> members =
+      band_views_.score_members(place_of(places_, ref), views);
+  set.buffer = Buffer(device_, std::span<const std::uint8_t>(members));
+  set.used = int(members.size() - std::count(members.begin(), members.end(), 0));
+  set.ref = ref;
+  return set;
+}
+
+StripParams DeviceWorkspace::strip(int view, RowRange rows) const {
+  return own_strip(place_of(places_, view), rows);
+}
+
+void DeviceWorkspace::see_views(const std::vector<int>& views) {
+  if (views == loaded_views_) return;
+  loaded_views_ = views;
+  places_ = places_in(views, all_views_.num_views);
+  band_.num_views = int(views.size());
+  band_views_ = all_views_.of_band(views, level_);
+  std::vector<int> active;
+  for (const int view : active_views_) active.push_back(places_[view]);
+  if (!active.empty()) active_buffer_ = Buffer(device_, std::span<const int>(active));
+  rays_ref_ = shifts_ref_ = -1;
+  for (auto& [which, set] : view_sets_) set.ref = -1;
+}
+
+Buffer& DeviceWorkspace::rays(int ref) {
+  if (rays_ref_ == ref) return rays_buffer_;
+  const std::vector<float> table = band_views_.ray_table(place_of(places_, ref));
+  rays_buffer_ = Buffer(device_, std::span<const float>(table));
+  rays_ref_ = ref;
+  return rays_buffer_;
+}
+
+Buffer& DeviceWorkspace::ways(int ref) {
+  if (!all_views_.rays_shift_alike) return rays(ref);
+  Buffer& shifts = shifts_.at_least(
+      device_, std::size_t(hypotheses_.count) * band_.num_views * sizeof(BlockShift));
+  if (shifts_ref_ != ref)
+    plain_kernel("block_shifts", "block_shifts")
+        .set_args(rays(ref), band_.num_views, hypotheses_, shifts)
+        .run(WorkSize(band_.num_views, hypotheses_.count), WorkSize(1, 1));
+  shifts_ref_ = ref;
+  return shifts;
+}
+
+// ---- Scores: what device_scores.cpp shares with the others
+// ----------------------------------------
+
+std::size_t DeviceWorkspace::volume_bytes(RowRange rows) const {
+  return (std::size_t(rows.size()) * band_.width * hypotheses_.pitch + 2 * GIGARAY_PAD) *
+         sizeof(float);
+}
+
+Buffer& DeviceWorkspace::raw_volume(RowRange rows) {
+  raw_rows_ = rows;
+  winner_reads(raw_scores_, rows);
+  return raw_scores_.at_least(device_, volume_bytes(rows));
+}
+
+void DeviceWorkspace::winner_reads(Scratch& scores, RowRange rows) {
+  chosen_by_ = winner_scores_ = &scores;
+  score_rows_ = rows;
+}
+
+int DeviceWorkspace::least_views(int used) const {
+  return std::max(1, int(std::ceil(setup_.options.score.min_views * float(used))));
+}
+
+std::string DeviceWorkspace::score_defines() const {
+  const ScoreOptions& score = setup_.options.score;
+  return define("ITERATIONS", score.mean_shift_iterations) + define("GRADIENT", score.gradient) +
+         define("CUBIC", score.cubic) + masked_define();
+}
+
+}  // namespace gigaray::opencl

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Gigaray authors
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "row_store.h"
+#include "workspace.h"
+
+namespace gigaray {
+
+/// Where what is kept of a run lies.
+enum class Place {
+  kDevice,  ///< in the memory of the device
+  kHost,    ///< in the host's: rows are brought to the device when steps want them
+  kFile     ///< in files
+};
+
+/// Rows of some views of one level side by side: [v][view][…]. On the device, or in a RowStore from
+/// where some rows at a time are brought. Zero at first.
+class LevelRows {
+ public:
+  LevelRows() = default;
+  /// view_bytes: of a row of one view. folder: for files.
+  LevelRows(Workspace& workspace, int rows, int views, std::size_t view_bytes, Place place,
+            const std::string& folder);
+  /// The same with rows that are there already, [v][view][…].
+  LevelRows(Workspace& workspace, RowStore store, int rows, int views, Place place);
+
+  bool empty() const { return rows_ == 0; }
+  int views() const { return views_; }
+  std::size_t view_bytes() const { return view_bytes_; }
+  bool on_device() const { return memory_ != nullptr; }
+
+  /// Rows of all views.
+  RowsOnDevice open(RowRange rows);
+  /// Rows of some views, ascending; at: where they lie among what is stored.
+  RowsOnDevice open(RowRange rows, const std::vector<int>& views, std::vector<int>& at);
+  /// Rows of one view.
+  ViewRows open_view(RowRange rows, int view);
+  /// Ends what open() or open_view() began, when the rows were changed.
+  void close(RowRange rows, const RowsOnDevice& opened);
+  void close(RowRange rows, int view, const ViewRows& opened);
+
+ private:
+  RowsOnDevice stage(RowRange rows, int views);
+
+  Workspace* workspace_ = nullptr;
+  int rows_ = 0, views_ = 0;
+  std::size_t view_bytes_ = 0;
+  std::shared_ptr<Memory> memory_;  ///< all rows; null: they are in the store
+  RowStore store_;
+  std::shared_ptr<Memory> staged_;  ///< the rows that are open
+  AlignedBytes scratch_;
+};
+
+}  // namespace gigaray

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Gigaray authors
+// What is to do in a view, and what becomes of its winners.
+#include <algorithm>
+#include <limits>
+#include <numeric>
+#include <span>
+
+#include "pipeline.h"
+
+namespace gigaray {
+
+int Pipeline::count(const std::vector<int>& counts, RowRange rows) const {
+  return std::accumulate(counts.begin() + rows.begin, counts.begin() + rows.end, 0);
+}
+
+const Map<std::uint8_t>& Pipeline::opened(int radius, const Map<std::uint8_t>& mask) {
+  const RowRange all = shape().rows();
+  const Map<std::uint8_t>* from = &mask;
+  const Map<std::uint8_t>* to = &of_view_.scratch;
+  for (int pass = 0; pass < 2 * radius; ++pass) {
+    if (pass < radius)
+      workspace_.erode(all, *from, *to);
+    else
+      workspace_.dilate(all, *from, *to);
+    from = to;
+    to = from == &of_view_.scratch ? &of_view_.more_scratch : &of_view_.scratch;
+  }
+  return *from;
+}
+
+bool Pipeline::find_todo(int active_idx) {
+  if (partners_[active_[active_idx]].size() < 2) return false;  // nothing to compare with
+  workspace_.begin_stage("select");
+  LevelState& state = levels_[level_];
+  Maps& maps = of_view_;
+  const RowRange all = shape().rows();
+  const ViewRows estimates = state.estimates.open_view(all, active_idx);
+  const PropagationOptions& propagation = options_.propagation;
+  bool cracked = level_ == 0 && active_idx > 0 && propagation.crack_width > 0;
+  if (cracked) {
+    constexpr float kSameSurface = 3;  // hypotheses
+    workspace_.unpack_estimates(all, estimates, maps.smooth, maps.more_confidence);
+    workspace_.close_cracks(all, propagation.crack_width, kSameSurface * float(hypotheses_.step()),
+                            maps.smooth, maps.more_confidence, maps.disparity, maps.confidence,
+                            estimates);
+    state.estimates.close(all, active_idx, estimates);
+    cracked = count(workspace_.count_estimates(maps.disparity), all) > 0;
+  } else {
+    workspace_.unpack_estimates(all, estimates, maps.disparity, maps.confidence);
+  }
+
+  std::vector<int> at{0};
+  const ViewRows mask = state.mask.empty() ? ViewRows() : state.mask.open_view(all, active_idx);
+  const ViewRows search = level_ == 0 ? ViewRows() : state.search.open_view(all, active_idx);
+  const ShownRows shown = open_shown(all, {active_[active_idx]}, at);
+  workspace_.select_todo(all, maps.disparity, mask, shown, at.front(), search, maps.todo,
+                         maps.bounds);
+  if (cracked)
+    workspace_.bound_thin_holes(all, maps.todo, opened(kThinHole, maps.todo), maps.disparity,
+                                maps.bounds);
+  if (cracked && !is_last_level()) {
+    // Specks would cost whole windows of scores each.
+    opened(1, maps.todo);
+    std::swap(maps.todo, maps.more_scratch);
+  }
+  todo_counts_ = workspace_.count_rows(maps.todo);
+  return count(todo_counts_, all) > 0;
+}
+
+void Pipeline::accept_view(int active_idx) {
+  const int view = active_[active_idx];
+  Maps& maps = of_view_;
+  const Map<float>& accepted = maps.smooth;
+  const float threshold =
+      is_last_level() ? -std::numeric_limits<float>::infinity() : options_.winner.min_confidence;
+  const bool one_band = bands().size() == 1;
+  for (const RowRange band : bands()) {
+    if (count(todo_counts_, band) == 0) {
+      workspace_.accept(band, threshold, maps.todo, maps.confidence, accepted);
+      continue;
+    }
+    load_band(view, band);
+    workspace_.begin_stage("median");
+    workspace_.bilateral_median(view, band, options_.winner.median_radius,
+                                options_.winner.median_tolerance, maps.disparity, accepted);
+    workspace_.accept(band, threshold, maps.todo, maps.confidence, accepted);
+    workspace_.begin_stage("radiance");
+    workspace_.mean_radiance(view, band, accepted, maps.radiance);
+    propagate(active_idx, band);
+    if (one_band) clear_bars(active_idx, band);
+  }
+  if (!one_band)
+    for (const RowRange band : bands())
+      if (count(todo_counts_, band) > 0) clear_bars(active_idx, band);
+  collect_tuples(view);
+}
+
+void Pipeline::propagate(int active_idx, RowRange band) {
+  workspace_.begin_stage("propagate");
+  LevelState& state = levels_[level_];
+  const int view = active_[active_idx];
+  const RowRange reached = rows_needed(view, band);
+  const int finished = state.bars.empty() ? 0 : active_idx;
+  const RowsOnDevice estimates = state.estimates.open(reached);
+  RowsOnDevice bars;
+  if (finished > 0) {
+    bars = state.bars.open(reached);
+    workspace_.set_bars(view, band, of_view_.smooth, reached, finished, estimates, bars);
+  }
+  workspace_.propagation(view, band, of_view_.smooth, of_view_.confidence, of_view_.radiance,
+                         reached, finished, bars, estimates);
+  if (finished > 0) state.bars.close(reached, bars);
+  state.estimates.close(reached, estimates);
+}
+
+void Pipeline::clear_bars(int active_idx, RowRange band) {
+  LevelState& state = levels_[level_];
+  const int view = active_[active_idx];
+  if (state.bars.empty() || active_idx == 0) return;
+  const RowRange reached = rows_needed(view, band);
+  const RowsOnDevice bars = state.bars.open(reached);
+  workspace_.clear_bars(view, band, of_view_.smooth, reached, active_idx, bars);
+  state.bars.close(reached, bars);
+}
+
+void Pipeline::collect_tuples(int view) {
+  workspace_.begin_stage("tuples");
+  constexpr int kMostAtOnce = 1 << 20;
+  const int height = shape().height;
+  for (RowRange rows{0, 0}; rows.begin < height; rows.begin = rows.end) {
+    int most = 0;
+    while (rows.end < height && (most == 0 || most + todo_counts_[rows.end] <= kMostAtOnce))
+      most += todo_counts_[rows.end++];
+    if (most == 0) continue;
+    const std::size_t bytes = most * sizeof(RayTuple);
+    if (!tuple_memory_ || tuple_memory_->bytes() < bytes) {
+      tuple_memory_.reset();
+      tuple_memory_ = workspace_.allocate(bytes);
+    }
+    const int found = workspace_.compact_tuples(view, rows, of_view_.smooth, of_view_.confidence,
+                                                of_view_.radiance, *tuple_memory_);
+    take_fresh_tuples();  // those before are there, too
+    fresh_tuples_.resize(std::size_t(found));
+    if (found > 0)
+      workspace_.read_later(*tuple_memory_, std::as_writable_bytes(std::span(fresh_tuples_)));
+  }
+}
+
+void Pipeline::take_fresh_tuples() {
+  tuples_.append(fresh_tuples_);
+  fresh_tuples_.clear();
+}
+
+}  // namespace gigaray
