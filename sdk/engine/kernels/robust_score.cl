@@ -76,29 +76,27 @@ static inline float4 tap_weights(float f) {
   ((vfloat)((columns)[0].s3456789a, (columns)[0].sbcde, (columns)[0].sf, (columns)[1].s012))
 #endif
 
-// Where a view sees a block: units [first_unit, last_unit] of it are to do and inside the picture at
-// least in part.
+// Where a view sees a block: units [first_unit, last_unit] of it are inside the picture at least in
+// part; whole: all of them are.
 typedef struct {
-  int first_unit, last_unit;
+  int first_unit, last_unit, whole;
   int x, last_column;  // of the block's first pixel, of the picture
   __global const float *above, *row, *below, *below2;  // channel 0, column x
   float4 weights_u, weights_v;
   int between_columns, between_rows;  // 0: no interpolation needed
 } BlockView;
 
-// Units [begin, end) of the block are to do.
 static inline int see_block(__global const float* band, const BandParams p, int k,
-                            const BlockShift shift, int x, int y, int begin, int end,
-                            BlockView* view) {
+                            const BlockShift shift, int x, int y, BlockView* view) {
   view->between_columns = shift.fraction_u > 0.0f;
   view->between_rows = shift.fraction_v > 0.0f;
   view->x = x;
   view->last_column = p.width - 1 - view->between_columns;
   if (y < 0 || y + view->between_rows > p.height - 1) return 0;
   if (x > view->last_column || x + UNITS * LANES <= 0) return 0;
-  view->first_unit = max(begin, x < 0 ? -x / LANES : 0);
-  view->last_unit = min(end - 1, (view->last_column - x) / LANES);
-  if (view->first_unit > view->last_unit) return 0;
+  view->first_unit = x < 0 ? -x / LANES : 0;
+  view->last_unit = min(UNITS - 1, (view->last_column - x) / LANES);
+  view->whole = !MASKED & (x >= 0) & (x + UNITS * LANES - 1 <= view->last_column);
   const size_t next = (size_t)p.num_views * CHANNELS * p.stride;
   view->row = band_row(band, p, k, y) + x;
   view->above = y > 0 ? view->row - next : view->row;
@@ -156,43 +154,52 @@ typedef struct {
   float inverse_h, inverse_g, gradient_share;
 } Kernels;
 
-// Sums over the views, of all units under one hypothesis.
+// Sums over the views, of all units under one hypothesis. The views that see the whole block are in
+// `whole`, not in `counts`.
 typedef struct {
   vfloat sums[PARTS][UNITS], counts[PARTS][UNITS];
+  float whole[PARTS];
 } BlockSums;
 
-// Adds one view's kernels.
-INLINE void add_view(const BlockView* view, __global const float* own, int stride, int member,
-                     const Kernels kernels, int between_rows, int between_columns,
-                     BlockSums* block) {
+// Neighbouring units with something to do.
+typedef struct {
+  int first, last;
+} Run;
+
+// Adds one view's kernels of a run.
+INLINE void add_run(const BlockView* view, const Run run, __global const float* own, int stride,
+                    int member, const Kernels kernels, int between_rows, int between_columns,
+                    BlockSums* block) {
+  const int first = max(run.first, view->first_unit), last = min(run.last, view->last_unit);
+  if (first > last) return;
   vfloat window[3][WINDOW], colour[UNITS];
-  const int whole = view->x >= 0 && view->x + UNITS * LANES - 1 <= view->last_column;
-  begin_window(view, stride, 0, 3, view->first_unit, between_rows, window);
+  begin_window(view, stride, 0, 3, first, between_rows, window);
   vfloat largest = (vfloat)(0.0f);
-  for (int j = view->first_unit; j <= view->last_unit; ++j) {
+  for (int j = first; j <= last; ++j) {
     const vfloat squared =
         distance2(view, own, stride, 0, 3, j, between_rows, between_columns, window);
-    vfloat inside = (vfloat)(1.0f);
-    if (!whole) {
+    colour[j] = max(1.0f - sqrt(squared) * kernels.inverse_h, (vfloat)(0.0f));
+    if (!view->whole) {
       const vint column = view->x + j * LANES + VLANES;
-      inside = VSELECT((vfloat)(0.0f), inside, column >= 0 && column <= view->last_column);
-    }
+      vfloat inside =
+          VSELECT((vfloat)(0.0f), (vfloat)(1.0f), column >= 0 && column <= view->last_column);
 #if MASKED
-    // Three channels beyond those of any picture.
-    inside = VSELECT((vfloat)(0.0f), inside, squared < 12.0f);
+      // Three channels beyond those of any picture.
+      inside = VSELECT((vfloat)(0.0f), inside, squared < 12.0f);
 #endif
-    colour[j] = inside * max(1.0f - sqrt(squared) * kernels.inverse_h, (vfloat)(0.0f));
+      colour[j] *= inside;
+      UNROLL
+      for (int part = 0; part < PARTS; ++part)
+        if (PARTS == 1 || member >> part & 1) block->counts[part][j] += inside;
+    }
     largest = max(largest, colour[j]);
-    UNROLL
-    for (int part = 0; part < PARTS; ++part)
-      if (PARTS == 1 || member >> part & 1) block->counts[part][j] += inside;
   }
   // Another colour is an occluder: its gradient is not asked for.
   if (!(largest_lane(largest) > 0.0f)) return;
 
-  begin_window(view, stride, 3, CHANNELS - 3, view->first_unit, between_rows, window);
+  begin_window(view, stride, 3, CHANNELS - 3, first, between_rows, window);
   const float share = kernels.gradient_share;
-  for (int j = view->first_unit; j <= view->last_unit; ++j) {
+  for (int j = first; j <= last; ++j) {
     const vfloat squared =
         distance2(view, own, stride, 3, CHANNELS - 3, j, between_rows, between_columns, window);
     const vfloat gradient = max(1.0f - sqrt(squared) * kernels.inverse_g, (vfloat)(0.0f));
@@ -217,15 +224,18 @@ __kernel void robust_score(__global const float* band, const BandParams p, const
   const int v = strip.row_begin + row;
 
   int first = INT_MAX, last = -1;          // hypotheses
-  int first_unit = UNITS, last_unit = -1;  // with something to do
+  int num_runs = 0;
+  Run runs[(UNITS + 1) / 2];
   LaneBounds tested[UNITS];
   for (int j = 0; j < UNITS && u + j * LANES < strip.width; ++j) {
     const int2 unit = block_bounds(todo, bounds, strip, row, u + j * LANES, &tested[j]);
     if (unit.y < 0) continue;
     first = min(first, unit.x);
     last = max(last, unit.y);
-    first_unit = min(first_unit, j);
-    last_unit = j;
+    if (num_runs > 0 && runs[num_runs - 1].last == j - 1)
+      runs[num_runs - 1].last = j;
+    else
+      runs[num_runs++] = (Run){j, j};
   }
   if (last < 0) return;
 
@@ -235,9 +245,11 @@ __kernel void robust_score(__global const float* band, const BandParams p, const
     const int tile = min(TILE, last - begin + 1);
     BlockSums blocks[TILE];
     for (int i = 0; i < tile; ++i)
-      for (int part = 0; part < PARTS; ++part)
+      for (int part = 0; part < PARTS; ++part) {
+        blocks[i].whole[part] = 0.0f;
         for (int j = 0; j < UNITS; ++j)
           blocks[i].sums[part][j] = blocks[i].counts[part][j] = (vfloat)(0.0f);
+      }
 
     for (int k = 0; k < p.num_views; ++k) {
       const int member = members[k];
@@ -245,34 +257,41 @@ __kernel void robust_score(__global const float* band, const BandParams p, const
       for (int i = 0; i < tile; ++i) {
         const BlockShift shift = shifts[(size_t)(begin + i) * p.num_views + k];
         BlockView view;
-        if (!see_block(band, p, k, shift, u + shift.whole_u, v + shift.whole_v, first_unit,
-                       last_unit + 1, &view))
-          continue;
-        if (view.between_rows && view.between_columns)
-          add_view(&view, own, p.stride, member, kernels, 1, 1, &blocks[i]);
-        else if (view.between_rows)
-          add_view(&view, own, p.stride, member, kernels, 1, 0, &blocks[i]);
-        else if (view.between_columns)
-          add_view(&view, own, p.stride, member, kernels, 0, 1, &blocks[i]);
-        else
-          add_view(&view, own, p.stride, member, kernels, 0, 0, &blocks[i]);
+        if (!see_block(band, p, k, shift, u + shift.whole_u, v + shift.whole_v, &view)) continue;
+        BlockSums* block = &blocks[i];
+        if (view.whole)
+          for (int part = 0; part < PARTS; ++part)
+            block->whole[part] += PARTS == 1 || member >> part & 1;
+        for (int r = 0; r < num_runs; ++r) {
+          if (view.between_rows && view.between_columns)
+            add_run(&view, runs[r], own, p.stride, member, kernels, 1, 1, block);
+          else if (view.between_rows)
+            add_run(&view, runs[r], own, p.stride, member, kernels, 1, 0, block);
+          else if (view.between_columns)
+            add_run(&view, runs[r], own, p.stride, member, kernels, 0, 1, block);
+          else
+            add_run(&view, runs[r], own, p.stride, member, kernels, 0, 0, block);
+        }
       }
     }
 
     for (int i = 0; i < tile; ++i)
-      for (int j = first_unit; j <= last_unit; ++j) {
-        const BlockSums* block = &blocks[i];
-        vfloat score = score_of(block->sums[0][j], block->counts[0][j], min_views, floor_views);
-        for (int part = 1; part < PARTS; ++part)
-          score = max(score, score_of(block->sums[part][j], block->counts[part][j], min_views,
-                                      floor_views));
-        store_scores(scores + score_index(strip, hypotheses, row, u + j * LANES), hypotheses,
-                     &tested[j], begin + i, score);
-      }
+      for (int r = 0; r < num_runs; ++r)
+        for (int j = runs[r].first; j <= runs[r].last; ++j) {
+          const BlockSums* block = &blocks[i];
+          vfloat score = (vfloat)(-1.0f);
+          for (int part = 0; part < PARTS; ++part)
+            score = max(score, score_of(block->sums[part][j],
+                                        block->whole[part] + block->counts[part][j], min_views,
+                                        floor_views));
+          store_scores(scores + score_index(strip, hypotheses, row, u + j * LANES), hypotheses,
+                       &tested[j], begin + i, score);
+        }
   }
-  for (int j = first_unit; j <= last_unit; ++j)
-    repeat_ends_of_lanes(scores + score_index(strip, hypotheses, row, u + j * LANES), hypotheses,
-                         &tested[j]);
+  for (int r = 0; r < num_runs; ++r)
+    for (int j = runs[r].first; j <= runs[r].last; ++j)
+      repeat_ends_of_lanes(scores + score_index(strip, hypotheses, row, u + j * LANES), hypotheses,
+                           &tested[j]);
 }
 
 #else
