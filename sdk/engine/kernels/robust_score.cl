@@ -35,6 +35,17 @@
 #endif
 // Hypotheses that take turns: no more memory for the sums of half-planes than for others.
 #define TILE ((HYPOTHESES + PARTS - 1) / PARTS)
+// Indices of arrays that may have one element: then it can be in registers.
+#if UNITS == 1
+#define UNIT(j) 0
+#else
+#define UNIT(j) (j)
+#endif
+#if TILE == 1
+#define TURN(i) 0
+#else
+#define TURN(i) (i)
+#endif
 
 #if SHIFT_ALIKE
 
@@ -178,7 +189,7 @@ INLINE void add_run(const BlockView* view, const Run run, __global const float* 
   for (int j = first; j <= last; ++j) {
     const vfloat squared =
         distance2(view, own, stride, 0, 3, j, between_rows, between_columns, window);
-    colour[j] = max(1.0f - sqrt(squared) * kernels.inverse_h, (vfloat)(0.0f));
+    colour[UNIT(j)] = max(1.0f - sqrt(squared) * kernels.inverse_h, (vfloat)(0.0f));
     if (!view->whole) {
       const vint column = view->x + j * LANES + VLANES;
       vfloat inside =
@@ -187,12 +198,12 @@ INLINE void add_run(const BlockView* view, const Run run, __global const float* 
       // Three channels beyond those of any picture.
       inside = VSELECT((vfloat)(0.0f), inside, squared < 12.0f);
 #endif
-      colour[j] *= inside;
+      colour[UNIT(j)] *= inside;
       UNROLL
       for (int part = 0; part < PARTS; ++part)
-        if (PARTS == 1 || member >> part & 1) block->counts[part][j] += inside;
+        if (PARTS == 1 || member >> part & 1) block->counts[part][UNIT(j)] += inside;
     }
-    largest = max(largest, colour[j]);
+    largest = max(largest, colour[UNIT(j)]);
   }
   // Another colour is an occluder: its gradient is not asked for.
   if (!(largest_lane(largest) > 0.0f)) return;
@@ -203,11 +214,11 @@ INLINE void add_run(const BlockView* view, const Run run, __global const float* 
     const vfloat squared =
         distance2(view, own, stride, 3, CHANNELS - 3, j, between_rows, between_columns, window);
     const vfloat gradient = max(1.0f - sqrt(squared) * kernels.inverse_g, (vfloat)(0.0f));
-    const vfloat kernel_value = (1.0f - share) * colour[j] +
-                                share * gradient * min(4.0f * colour[j], (vfloat)(1.0f));
+    const vfloat kernel_value = (1.0f - share) * colour[UNIT(j)] +
+                                share * gradient * min(4.0f * colour[UNIT(j)], (vfloat)(1.0f));
     UNROLL
     for (int part = 0; part < PARTS; ++part)
-      if (PARTS == 1 || member >> part & 1) block->sums[part][j] += kernel_value;
+      if (PARTS == 1 || member >> part & 1) block->sums[part][UNIT(j)] += kernel_value;
   }
 }
 
@@ -228,14 +239,16 @@ __kernel void robust_score(__global const float* band, const BandParams p, const
   Run runs[(UNITS + 1) / 2];
   LaneBounds tested[UNITS];
   for (int j = 0; j < UNITS && u + j * LANES < strip.width; ++j) {
-    const int2 unit = block_bounds(todo, bounds, strip, row, u + j * LANES, &tested[j]);
+    const int2 unit = block_bounds(todo, bounds, strip, row, u + j * LANES, &tested[UNIT(j)]);
     if (unit.y < 0) continue;
     first = min(first, unit.x);
     last = max(last, unit.y);
-    if (num_runs > 0 && runs[num_runs - 1].last == j - 1)
-      runs[num_runs - 1].last = j;
-    else
-      runs[num_runs++] = (Run){j, j};
+    if (num_runs > 0 && runs[UNIT(num_runs - 1)].last == j - 1) {
+      runs[UNIT(num_runs - 1)].last = j;
+    } else {
+      runs[UNIT(num_runs)] = (Run){j, j};
+      ++num_runs;
+    }
   }
   if (last < 0) return;
 
@@ -246,9 +259,9 @@ __kernel void robust_score(__global const float* band, const BandParams p, const
     BlockSums blocks[TILE];
     for (int i = 0; i < tile; ++i)
       for (int part = 0; part < PARTS; ++part) {
-        blocks[i].whole[part] = 0.0f;
+        blocks[TURN(i)].whole[part] = 0.0f;
         for (int j = 0; j < UNITS; ++j)
-          blocks[i].sums[part][j] = blocks[i].counts[part][j] = (vfloat)(0.0f);
+          blocks[TURN(i)].sums[part][UNIT(j)] = blocks[TURN(i)].counts[part][UNIT(j)] = (vfloat)(0.0f);
       }
 
     for (int k = 0; k < p.num_views; ++k) {
@@ -258,40 +271,40 @@ __kernel void robust_score(__global const float* band, const BandParams p, const
         const BlockShift shift = shifts[(size_t)(begin + i) * p.num_views + k];
         BlockView view;
         if (!see_block(band, p, k, shift, u + shift.whole_u, v + shift.whole_v, &view)) continue;
-        BlockSums* block = &blocks[i];
+        BlockSums* block = &blocks[TURN(i)];
         if (view.whole)
           for (int part = 0; part < PARTS; ++part)
             block->whole[part] += PARTS == 1 || member >> part & 1;
         for (int r = 0; r < num_runs; ++r) {
           if (view.between_rows && view.between_columns)
-            add_run(&view, runs[r], own, p.stride, member, kernels, 1, 1, block);
+            add_run(&view, runs[UNIT(r)], own, p.stride, member, kernels, 1, 1, block);
           else if (view.between_rows)
-            add_run(&view, runs[r], own, p.stride, member, kernels, 1, 0, block);
+            add_run(&view, runs[UNIT(r)], own, p.stride, member, kernels, 1, 0, block);
           else if (view.between_columns)
-            add_run(&view, runs[r], own, p.stride, member, kernels, 0, 1, block);
+            add_run(&view, runs[UNIT(r)], own, p.stride, member, kernels, 0, 1, block);
           else
-            add_run(&view, runs[r], own, p.stride, member, kernels, 0, 0, block);
+            add_run(&view, runs[UNIT(r)], own, p.stride, member, kernels, 0, 0, block);
         }
       }
     }
 
     for (int i = 0; i < tile; ++i)
       for (int r = 0; r < num_runs; ++r)
-        for (int j = runs[r].first; j <= runs[r].last; ++j) {
-          const BlockSums* block = &blocks[i];
+        for (int j = runs[UNIT(r)].first; j <= runs[UNIT(r)].last; ++j) {
+          const BlockSums* block = &blocks[TURN(i)];
           vfloat score = (vfloat)(-1.0f);
           for (int part = 0; part < PARTS; ++part)
-            score = max(score, score_of(block->sums[part][j],
-                                        block->whole[part] + block->counts[part][j], min_views,
+            score = max(score, score_of(block->sums[part][UNIT(j)],
+                                        block->whole[part] + block->counts[part][UNIT(j)], min_views,
                                         floor_views));
           store_scores(scores + score_index(strip, hypotheses, row, u + j * LANES), hypotheses,
-                       &tested[j], begin + i, score);
+                       &tested[UNIT(j)], begin + i, score);
         }
   }
   for (int r = 0; r < num_runs; ++r)
-    for (int j = runs[r].first; j <= runs[r].last; ++j)
+    for (int j = runs[UNIT(r)].first; j <= runs[UNIT(r)].last; ++j)
       repeat_ends_of_lanes(scores + score_index(strip, hypotheses, row, u + j * LANES), hypotheses,
-                           &tested[j]);
+                           &tested[UNIT(j)]);
 }
 
 #else
