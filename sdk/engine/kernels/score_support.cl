@@ -10,11 +10,15 @@
 //   slopes     [v][pitch] (along u, along v), hypothesis units per px
 //   supported  [row][u][hypothesis]
 //   todo, bounds as for density_score
-// One work-item per pixel; lanes are hypotheses.
+// One work-item per pixel; lanes are hypotheses, VECTORS of them at a time.
 
 #ifndef RADIUS
 #define RADIUS 4
 #endif
+#ifndef VECTORS
+#define VECTORS 1  // sums at a time, in registers: a single one would wait for each of its additions
+#endif
+#define INLINE static inline __attribute__((always_inline))
 #define WINDOW (2 * RADIUS + 1)
 #define WINDOW_PITCH ((WINDOW + LANES - 1) / LANES * LANES)
 
@@ -45,6 +49,36 @@ static inline float support_weights(__global const float* band, const BandParams
   return sum_of_lanes(sum);
 }
 
+// The neighbours of pixel (u, v).
+typedef struct {
+  int top, bottom, left, right, u, v;
+  float scale;
+  const float* weights;
+} Window;
+
+INLINE const float* row_weights(const Window* window, int y) {
+  return window->weights + (y - window->top) * WINDOW_PITCH + window->left - window->u + RADIUS;
+}
+
+// Supported scores of neighbouring vectors. scores: the first of them at the window's first pixel.
+INLINE void support_vectors(const Window* window, int width, int pitch,
+                            __global const float* scores, int vectors, __global float* out) {
+  vfloat totals[VECTORS];
+  UNROLL
+  for (int t = 0; t < VECTORS; ++t) totals[t] = (vfloat)(0.0f);
+  for (int y = window->top; y <= window->bottom; ++y) {
+    __global const float* from = scores + (size_t)(y - window->top) * width * pitch;
+    const float* w = row_weights(window, y);
+    for (int x = window->left; x <= window->right; ++x, from += pitch, ++w)
+      UNROLL
+      for (int t = 0; t < VECTORS; ++t)
+        if (t < vectors) totals[t] += *w * VLOAD(from + t * LANES);
+  }
+  UNROLL
+  for (int t = 0; t < VECTORS; ++t)
+    if (t < vectors) VSTORE(totals[t] * window->scale, out + t * LANES);
+}
+
 __kernel void score_support(__global const float* band, const BandParams p, const StripParams strip,
                             const HypothesisParams hypotheses, __global const uchar* todo,
                             __global const ushort2* bounds, __global const float* scores,
@@ -59,32 +93,73 @@ __kernel void score_support(__global const float* band, const BandParams p, cons
   const float scale = 1.0f / support_weights(band, p, strip, u, v, top, bottom, sigma_colour,
                                              sigma_space, weights);
 
+  const Window window = {top, bottom, left, right, u, v, scale, weights};
+  __global const float* from = scores + score_index(strip, hypotheses, top - scores_begin, left);
   __global float* out = supported + score_index(strip, hypotheses, row, u);
-  for (int i = lanes_floor(tested.x); i <= tested.y; i += LANES) {
-    vfloat total = (vfloat)(0.0f);
-    for (int y = top; y <= bottom; ++y) {
-      __global const float* from = scores + score_index(strip, hypotheses, y - scores_begin, left) + i;
-      const float* w = weights + (y - top) * WINDOW_PITCH + left - u + RADIUS;
-      for (int x = left; x <= right; ++x, from += hypotheses.pitch) total += *w++ * VLOAD(from);
-    }
-    VSTORE(total * scale, out + i);
-  }
+  for (int i = lanes_floor(tested.x); i <= tested.y; i += VECTORS * LANES)
+    support_vectors(&window, strip.width, hypotheses.pitch, from + i,
+                    min(VECTORS, (tested.y - i) / LANES + 1), out + i);
   repeat_ends(out, hypotheses, tested.x, tested.y);
 }
 
 // The scores of hypotheses i, i + 1, … of a pixel; beyond the ends the last ones are repeated.
 static inline vfloat scores_from(__global const float* column, int i, int count) {
-  if (i >= 0 && i + LANES <= count) return VLOAD(column + i);
-  if (i >= count) return (vfloat)(column[count - 1]);
-  if (i + LANES <= 0) return (vfloat)(column[0]);
 #if LANES == 1
-  return column[0];
+  return column[clamp(i, 0, count - 1)];
 #else
+  i = clamp(i, -LANES, count);
   const vint index = i + VLANES;
   vfloat value = VLOAD(column + i);
   value = VSELECT(value, (vfloat)(column[0]), index < 0);
   return VSELECT(value, (vfloat)(column[count - 1]), index >= count);
 #endif
+}
+
+// By how many hypotheses the surface lies elsewhere at a neighbour; the rest, in [0, 1), to fraction.
+// Without floor(), which is a call with branches on some CPUs.
+INLINE int shift_at(float2 slope, int du, int dv, float* fraction) {
+  const float shift = slope.x * (float)du + slope.y * (float)dv;
+  int whole = (int)shift;
+  whole -= shift < (float)whole;
+  *fraction = shift - (float)whole;
+  return whole;
+}
+
+// As support_vectors, of hypotheses i, i + 1, … scores: hypothesis 0. Shifts are from `least` to `most`.
+INLINE void slanted_vectors(const Window* window, int width, int pitch, int count, float2 slope,
+                            int least, int most, __global const float* scores, int i, int vectors,
+                            __global float* out) {
+  vfloat totals[VECTORS];
+  int at_end[VECTORS];  // some of its neighbours' scores may be beyond the ends
+  UNROLL
+  for (int t = 0; t < VECTORS; ++t) {
+    totals[t] = (vfloat)(0.0f);
+    at_end[t] = i + t * LANES + least < 0 || i + (t + 1) * LANES + most + 1 > count;
+  }
+  for (int y = window->top; y <= window->bottom; ++y) {
+    __global const float* column = scores + (size_t)(y - window->top) * width * pitch;
+    const float* w = row_weights(window, y);
+    for (int x = window->left; x <= window->right; ++x, column += pitch, ++w) {
+      float fraction;
+      const int from = i + shift_at(slope, x - window->u, y - window->v, &fraction);
+      UNROLL
+      for (int t = 0; t < VECTORS; ++t) {
+        if (t >= vectors) continue;
+        vfloat low, high;
+        if (at_end[t]) {
+          low = scores_from(column, from + t * LANES, count);
+          high = scores_from(column, from + t * LANES + 1, count);
+        } else {
+          low = VLOAD(column + from + t * LANES);
+          high = VLOAD(column + from + t * LANES + 1);
+        }
+        totals[t] += *w * (low + fraction * (high - low));
+      }
+    }
+  }
+  UNROLL
+  for (int t = 0; t < VECTORS; ++t)
+    if (t < vectors) VSTORE(totals[t] * window->scale, out + i + t * LANES);
 }
 
 __kernel void slanted_support(__global const float* band, const BandParams p,
@@ -103,22 +178,19 @@ __kernel void slanted_support(__global const float* band, const BandParams p,
                                              sigma_space, weights);
   const float2 slope = vload2(view_index(strip, row, u), slopes) / hypotheses.step;
 
-  __global float* out = supported + score_index(strip, hypotheses, row, u);
-  for (int i = lanes_floor(tested.x); i <= tested.y; i += LANES) {
-    vfloat total = (vfloat)(0.0f);
-    for (int y = top; y <= bottom; ++y) {
-      __global const float* column = scores + score_index(strip, hypotheses, y - scores_begin, left);
-      const float* w = weights + (y - top) * WINDOW_PITCH + left - u + RADIUS;
-      for (int x = left; x <= right; ++x, column += hypotheses.pitch, ++w) {
-        const float shift = slope.x * (float)(x - u) + slope.y * (float)(y - v);
-        const int whole = (int)floor(shift);
-        const float fraction = shift - (float)whole;
-        const vfloat low = scores_from(column, i + whole, hypotheses.count);
-        const vfloat high = scores_from(column, i + whole + 1, hypotheses.count);
-        total += *w * (low + fraction * (high - low));
-      }
-    }
-    VSTORE(total * scale, out + i);
+  const Window window = {top, bottom, left, right, u, v, scale, weights};
+  int least = INT_MAX, most = INT_MIN;  // the corners have them
+  for (int corner = 0; corner < 4; ++corner) {
+    float fraction;
+    const int whole = shift_at(slope, (corner & 1 ? right : left) - u,
+                               (corner & 2 ? bottom : top) - v, &fraction);
+    least = min(least, whole);
+    most = max(most, whole);
   }
+  __global const float* from = scores + score_index(strip, hypotheses, top - scores_begin, left);
+  __global float* out = supported + score_index(strip, hypotheses, row, u);
+  for (int i = lanes_floor(tested.x); i <= tested.y; i += VECTORS * LANES)
+    slanted_vectors(&window, strip.width, hypotheses.pitch, hypotheses.count, slope, least, most,
+                    from, i, min(VECTORS, (tested.y - i) / LANES + 1), out);
   repeat_ends(out, hypotheses, tested.x, tested.y);
 }
