@@ -3,13 +3,10 @@
 #include "pipeline.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <exception>
 #include <limits>
-#include <mutex>
-#include <thread>
 
+#include "gigaray/parallel.h"
 #include "morphology.h"
 #include "stage_timer.h"
 
@@ -71,42 +68,25 @@ void Pipeline::decode() {
   const std::size_t line = std::size_t(width) * 3;
   RowStore& pixels = levels_[0].pixels;
 
-  std::atomic<int> next{0}, done{0};
-  std::exception_ptr failure;
-  std::mutex mutex;
-  const auto work = [&](bool is_caller) {
+  const int views = light_field_.num_views();
+  control_.progress("decode", 0, views);
+  const auto decode_view = [&](int view) {
+    Image<std::uint16_t> picture = read_view(light_field_, view);
+    if (const auto mask = take_mask(picture))
+      for (int v = 0; v < height; ++v) mask_.write(v, view * width, width, mask->row(v));
     std::vector<std::uint8_t> bytes(line);
-    try {
-      for (int view; (view = next++) < light_field_.num_views();) {
-        if (control_.cancelled()) break;
-        if (is_caller) control_.progress("decode", done, light_field_.num_views());
-        Image<std::uint16_t> picture = read_view(light_field_, view);
-        if (const auto mask = take_mask(picture))
-          for (int v = 0; v < height; ++v) mask_.write(v, view * width, width, mask->row(v));
-        for (int v = 0; v < height; ++v) {
-          const void* row = picture.row(v);
-          if (value_bytes == 1) {
-            std::copy(picture.row(v), picture.row(v) + line, bytes.begin());
-            row = bytes.data();
-          }
-          pixels.write(v, view * line * value_bytes, line * value_bytes, row);
-        }
-        ++done;
+    for (int v = 0; v < height; ++v) {
+      const void* row = picture.row(v);
+      if (value_bytes == 1) {
+        std::copy(picture.row(v), picture.row(v) + line, bytes.begin());
+        row = bytes.data();
       }
-    } catch (...) {
-      const std::lock_guard lock(mutex);
-      if (!failure) failure = std::current_exception();
-      next = light_field_.num_views();
+      pixels.write(v, view * line * value_bytes, line * value_bytes, row);
     }
   };
-  {
-    std::vector<std::jthread> helpers;
-    const unsigned threads = std::clamp(std::thread::hardware_concurrency(), 1u, 4u);
-    for (unsigned i = 1; i < threads; ++i) helpers.emplace_back(work, false);
-    work(true);
-  }
-  if (failure) std::rethrow_exception(failure);
-  control_.throw_if_cancelled();
+  parallel_for(
+      views, decode_view, [&](int done) { control_.progress("decode", done, views); },
+      plan_.decoders);
 }
 
 void Pipeline::begin_level(int level) {
