@@ -72,6 +72,7 @@ void Pipeline::decode() {
   control_.progress("decode", 0, views);
   const auto decode_view = [&](int view) {
     Image<std::uint16_t> picture = read_view(light_field_, view);
+    light_field_.pixels->let_go(view);
     if (const auto mask = take_mask(picture))
       for (int v = 0; v < height; ++v) mask_.write(v, view * width, width, mask->row(v));
     std::vector<std::uint8_t> bytes(line);

@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "gigaray/calibration.h"
+#include "gigaray/kept_pictures.h"
 #include "gigaray/scene_estimates.h"
 #include "gigaray/smoothing.h"
 #include "inverse_depths.h"
@@ -276,7 +277,10 @@ Reconstruction reconstruct(const LightField& light_field, const DepthOptions& op
   std::string job;
   {
     const StageTimer timer(impl->seconds, "prepare");
-    Prepared run = prepare(light_field, options, control);
+    check(light_field);
+    Prepared run = prepare(
+        KeptPictures::over(std::make_shared<KeptPictures>(options.memory_bytes), light_field),
+        options, control);
     impl->plan = plan_run(run, backend);
     job = kernel_job(run, backend);
     adapt_to_pictures(run, control);
