@@ -2,51 +2,49 @@
 // Copyright (c) 2026 The Gigaray authors
 #include "gigaray/parallel.h"
 
-#include <oneapi/tbb/global_control.h>
-#include <oneapi/tbb/info.h>
-#include <oneapi/tbb/parallel_for.h>
-#include <oneapi/tbb/partitioner.h>
-#include <oneapi/tbb/task_arena.h>
-
 #include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <exception>
 #include <fstream>
-#include <memory>
 #include <mutex>
 #include <string>
 #include <thread>
 
 #include "control_groups.h"
 #include "gigaray/error.h"
+#include "task_arena.h"
 
 namespace gigaray {
 namespace {
 
 std::mutex stating;
 std::atomic<int> stated{0};
-/// What else runs on TBB, OpenCV among it, keeps to the number too.
-std::unique_ptr<oneapi::tbb::global_control> stated_to_tbb;
+
+/// What a thread does in a loop comes after all that was done before the loop began, and before all
+/// that is done after it. TBB sees to that, out of sight of ThreadSanitizer; this and the mutex of
+/// the loop show it.
+std::atomic<unsigned> loops_begun{0};
 
 /// Jobs in their order, for as many threads as come.
 class Loop {
  public:
   Loop(int count, const std::function<void(int)>& job, const std::function<void(int)>& report)
       : count_(count), job_(job), report_(report), caller_(std::this_thread::get_id()) {
-    next_ = 0;  // what came before is seen by whoever takes a job
+    ++loops_begun;
   }
 
   void work() {
-    const bool is_caller = std::this_thread::get_id() == caller_;
+    (void)loops_begun.load();
     for (int i = next_++; i < count_; i = next_++) {
       guarded([&] { job_(i); });
       {
         const std::lock_guard lock(mutex_);
         ++done_;
       }
-      if (is_caller) report();
+      if (std::this_thread::get_id() == caller_) report();
     }
+    const std::lock_guard lock(mutex_);
   }
 
   /// Reports what is not yet reported, and throws what was thrown.
@@ -82,7 +80,7 @@ class Loop {
   const int count_;
   const std::function<void(int)>&job_, &report_;
   const std::thread::id caller_;
-  std::atomic<int> next_;
+  std::atomic<int> next_{0};
   std::mutex mutex_;
   int done_ = 0, reported_ = 0;  // the second one is the caller's own
   std::exception_ptr failure_;
@@ -118,7 +116,7 @@ int processors_left_by_groups(const std::filesystem::path& root) {
 
 int available_processors() {
   static const int processors = [] {
-    const int by_affinity = std::max(oneapi::tbb::info::default_concurrency(), 1);
+    const int by_affinity = processors_of_affinity();
     const int by_groups = processors_left_by_groups("/");
     return by_groups > 0 ? std::min(by_affinity, by_groups) : by_affinity;
   }();
@@ -135,10 +133,7 @@ void set_num_threads(int threads) {
     throw Error(ErrorCode::kInvalidArgument,
                 "threads " + std::to_string(threads) + ": must be 1 or more, or 0 for all");
   const std::lock_guard lock(stating);
-  stated_to_tbb.reset();
-  if (threads > 0)
-    stated_to_tbb = std::make_unique<oneapi::tbb::global_control>(
-        oneapi::tbb::global_control::max_allowed_parallelism, std::size_t(threads));
+  limit_tbb(threads);
   stated = threads;
 }
 
@@ -147,17 +142,11 @@ void parallel_for(int count, const std::function<void(int)>& job,
   int threads = std::min(num_threads(), count);
   if (most_threads > 0) threads = std::min(threads, most_threads);
   Loop loop(count, job, report);
-  if (threads <= 1) {
+  if (threads <= 1)
     loop.work();
-  } else {
-    // An arena of its own: a thread that waits here takes no job of a loop around this one, which
-    // could need what it holds.
-    oneapi::tbb::task_arena arena(threads);
-    arena.execute([&] {
-      oneapi::tbb::parallel_for(
-          0, threads, [&](int) { loop.work(); }, oneapi::tbb::simple_partitioner());
-    });
-  }
+  else
+    run_in_arena(
+        threads, [](void* argument) { static_cast<Loop*>(argument)->work(); }, &loop);
   loop.finish();
 }
 
