@@ -10,6 +10,7 @@
 
 #include "disparity_range.h"
 #include "occlusion_votes.h"
+#include "settle_direction.h"
 
 namespace gigaray {
 namespace {
@@ -133,7 +134,8 @@ void doubt_positions(const LightField& light_field, const RunControl& control) {
                   " as they are, to " + percent(agreement[best]) + " " + kTurns[best]);
 }
 
-std::optional<DisparityRange> check_direction(LightField& light_field, const RunControl& control) {
+std::optional<SettledDirection> settle_direction(LightField& light_field,
+                                                 const RunControl& control) {
   if (!light_field.sign_is_assumed) return std::nullopt;
   const std::vector<Trial> trials = try_orders(light_field, control);
   const auto best = std::max_element(
@@ -159,14 +161,22 @@ std::optional<DisparityRange> check_direction(LightField& light_field, const Run
   std::string ways = turn ? chosen.order->ways_turned : chosen.order->ways;
   if (row) ways = ways.substr(0, ways.find(','));
   const bool as_assumed = &chosen == &trials.front() && !turn;
+  SettledDirection settled{estimate.range, "", !unclear};
   if (!row || !as_assumed || unclear)
-    control.message("direction " + ways + (as_assumed ? " as assumed" : ", other than assumed") +
-                    ": views agree to " + percent(chosen.agreement()) +
-                    ", in the next best order to " + percent(next) +
-                    (unclear ? "; disparities have both signs and nothing tells near from far: "
-                               "--direction states it"
-                             : ""));
-  return estimate.range;
+    settled.message = "direction " + ways + (as_assumed ? " as assumed" : ", other than assumed") +
+                      ": views agree to " + percent(chosen.agreement()) +
+                      ", in the next best order to " + percent(next) +
+                      (unclear ? "; disparities have both signs and nothing tells near from far: "
+                                 "--direction states it"
+                               : "");
+  return settled;
+}
+
+std::optional<DisparityRange> check_direction(LightField& light_field, const RunControl& control) {
+  const auto settled = settle_direction(light_field, control);
+  if (!settled) return std::nullopt;
+  if (!settled->message.empty()) control.message(settled->message);
+  return settled->range;
 }
 
 }  // namespace gigaray

@@ -15,6 +15,7 @@
 #include "inverse_depths.h"
 #include "opencl/ready_kernels.h"
 #include "reconstruction_impl.h"
+#include "settle_direction.h"
 #include "stage_timer.h"
 
 namespace gigaray {
@@ -70,15 +71,35 @@ void adapt_to_noise(Prepared& run, const RunControl& control) {
   apply_noise(noise, run.options);
 }
 
+std::string range_message(const DisparityRange& range) {
+  std::ostringstream text;
+  text << "disparity range " << range.min << " … " << range.max
+       << " px per view step, estimated from the pictures";
+  return text.str();
+}
+
+/// Finds which way the camera goes where that is only assumed, and takes the range that it had to
+/// estimate for that. Mirrored depth would look finished.
+void require_direction(LightField& light_field, DepthOptions& options, const RunControl& control) {
+  const auto settled = settle_direction(light_field, control);
+  if (!settled) return;
+  if (!settled->is_clear)
+    throw Error(ErrorCode::kInvalidArgument,
+                "which way the camera goes is only assumed, and disparities of both signs don't "
+                "tell: state it with OpenOptions::direction (--direction), or take the assumption "
+                "by sign_is_assumed = false");
+  if (!settled->message.empty()) control.message(settled->message);
+  if (options.disparity) return;
+  options.disparity = settled->range;
+  control.message(range_message(settled->range));
+}
+
 /// Range and hypotheses of parallel views.
 void prepare_range(Prepared& run, const RunControl& control) {
   if (!run.options.disparity) run.options.disparity = run.light_field.declared_range;
   if (!run.options.disparity) {
     run.options.disparity = estimate_disparity_range(run.light_field, control).range;
-    std::ostringstream text;
-    text << "disparity range " << run.options.disparity->min << " … " << run.options.disparity->max
-         << " px per view step, estimated from the pictures";
-    control.message(text.str());
+    control.message(range_message(*run.options.disparity));
   }
   run.hypotheses = sample_range(run.options, run.light_field);
 }
@@ -196,6 +217,7 @@ HypothesisRange Reconstruction::hypotheses() const {
   const InverseDepthRange all = all_inverse_depths(impl_->cameras);
   return {all.min, all.max, impl_->hypotheses.count};
 }
+const LightField& Reconstruction::light_field() const { return impl_->light_field; }
 const std::vector<Camera>& Reconstruction::cameras() const { return impl_->cameras; }
 const std::vector<int>& Reconstruction::views() const { return impl_->views; }
 int Reconstruction::num_levels() const { return int(impl_->levels.size()); }
@@ -278,9 +300,13 @@ Reconstruction reconstruct(const LightField& light_field, const DepthOptions& op
   {
     const StageTimer timer(impl->seconds, "prepare");
     check(light_field);
-    Prepared run = prepare(
-        KeptPictures::over(std::make_shared<KeptPictures>(options.memory_bytes), light_field),
-        options, control);
+    LightField given =
+        KeptPictures::over(std::make_shared<KeptPictures>(options.memory_bytes), light_field);
+    DepthOptions wanted = options;
+    require_direction(given, wanted, control);
+    Prepared run = prepare(given, wanted, control);
+    impl->light_field = std::move(given);
+    impl->light_field.pixels = light_field.pixels;
     impl->plan = plan_run(run, backend);
     job = kernel_job(run, backend);
     adapt_to_pictures(run, control);
@@ -325,7 +351,11 @@ ScoreCurve probe(const LightField& light_field, const DepthOptions& options,
                                                  std::to_string(v) + " is outside the picture of " +
                                                  std::to_string(width) + "x" +
                                                  std::to_string(height));
-  Prepared run = prepare(light_field, options, control);
+  check(light_field);
+  LightField given = light_field;
+  DepthOptions wanted = options;
+  require_direction(given, wanted, control);
+  Prepared run = prepare(given, wanted, control);
   adapt_to_pictures(run, control);
   const auto backend = make_backend(run, choice);
   const AnySampler sampler = make_sampler(run.light_field);

@@ -91,8 +91,8 @@ struct LightField {
   std::shared_ptr<const PixelSource> pixels;
   std::string format;              ///< What the adapter recognised, e.g. "image sequence".
   std::vector<std::string> notes;  ///< What the adapter assumed; one line each, for the user.
-  /// Which way the camera goes as s and as t rise is an assumption that photo-consistency should
-  /// check.
+  /// Which way the camera goes as s and as t rise is an assumption that photo-consistency checks:
+  /// check_direction() of the engine, which reconstruct() calls where nobody has before.
   bool sign_is_assumed = false;
   /// kUnstructured: there while the pictures have not confirmed the poses that the input states.
   std::optional<PoseReading> pose_reading;
