@@ -8,7 +8,6 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "baselines/disparity_sampler.h"
@@ -20,6 +19,7 @@
 #include "did_you_mean.h"
 #include "gigaray/adapters/atomic_output.h"
 #include "gigaray/adapters/maps.h"
+#include "gigaray/parallel.h"
 #include "numbers.h"
 #include "output_option.h"
 #include "photographs.h"
@@ -170,9 +170,8 @@ std::string machine() {
   std::ifstream file("/proc/cpuinfo");
   for (std::string line; std::getline(file, line);)
     if (line.starts_with("model name"))
-      return fmt::format("{}, {} threads", line.substr(line.find(':') + 2),
-                         std::thread::hardware_concurrency());
-  return fmt::format("{} threads", std::thread::hardware_concurrency());
+      return fmt::format("{}, {} threads", line.substr(line.find(':') + 2), num_threads());
+  return fmt::format("{} threads", num_threads());
 }
 
 /// The options of one of our presets. range: to search, of views in a plane.

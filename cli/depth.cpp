@@ -160,6 +160,9 @@ void tell_of_infinity(const FloatMap& disparity, const LightField& light_field,
 
 void run(const Settings& settings, const RunControl& control) {
   const auto begin = std::chrono::steady_clock::now();
+  const auto pictures = std::make_shared<KeptPictures>(settings.run.memory_gib * double(1 << 30));
+  DepthRunOptions asked = settings.run;
+  asked.input.open.kept = pictures;
   std::set<MapFormat> formats;
   for (const std::string& name : settings.formats)
     formats.insert(name == "exr"          ? MapFormat::kExr
@@ -169,15 +172,15 @@ void run(const Settings& settings, const RunControl& control) {
                                           : MapFormat::kPng16);
   DepthFolder folder(settings.output.path, formats,
                      settings.output.rules(settings.run.input.places()));
-  LightField light_field = open_or_find_cameras(settings.run.input, settings.output, control);
+  LightField light_field = open_or_find_cameras(asked.input, settings.output, control);
   for (const std::string& note : light_field.notes) control.message(note);
-  DepthOptions options = settings.run.resolve(light_field, control);
+  DepthOptions options = asked.resolve(light_field, control);
   options.views = parse_views(settings.views, light_field);
   folder.describe(light_field, formats.contains(MapFormat::kNerfstudio)
                                    ? RigCameras(light_field).cameras()
                                    : std::vector<Camera>());
 
-  Reconstruction result = reconstruct(light_field, options, settings.run.backend(), control);
+  Reconstruction result = reconstruct(light_field, options, asked.backend(), control);
 
   const int centre = views_from_centre(light_field).front();
   ordered_json views = ordered_json::array();
@@ -236,6 +239,7 @@ void run(const Settings& settings, const RunControl& control) {
                     {"min_confidence", settings.min_confidence},
                     {"kept", kept},
                     {"tuples", result.num_tuples()},
+                    {"pictures_decoded", pictures->num_decoded()},
                     {"seconds", result.seconds()},
                     {"seconds_total", seconds},
                     {"peak_memory_mib", peak_memory_mib()},

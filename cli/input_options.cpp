@@ -69,11 +69,19 @@ void parse_convention(const std::string& text, OpenOptions& open) {
 
 LightField InputOptions::open_light_field(const std::filesystem::path& place,
                                           const OpenOptions& options) const {
-  LightField light_field = gigaray::open_light_field(place, options);
+  OpenOptions given = options;
+  if (max_size > 0) given.kept.reset();  // the shrunk ones are kept
+  LightField light_field = gigaray::open_light_field(place, given);
   if (!without.empty())
     light_field = gigaray::without(light_field, parse_views(without, light_field));
   rig.apply(light_field);
-  return max_size > 0 ? shrunk(std::move(light_field), max_size) : light_field;
+  if (max_size == 0) return light_field;
+  light_field = shrunk(std::move(light_field), max_size);
+  std::vector<std::string> keys;
+  for (const View& view : light_field.views)
+    keys.push_back(place.string() + '\n' + view.name + '\n' + std::to_string(max_size));
+  light_field.pixels = KeptPictures::over(options.kept, light_field.pixels, std::move(keys));
+  return light_field;
 }
 
 void InputOptions::add_to(CLI::App& app) {

@@ -21,6 +21,7 @@
 #include "console.h"
 #include "did_you_mean.h"
 #include "terminal.h"
+#include "threads_option.h"
 
 namespace gigaray::cli {
 
@@ -154,6 +155,7 @@ int main(int argc, char** argv) {
     CLI::App& app = *program.add_subcommand(command.name);
     app.group(heading_of(command.name));
     const Run run_it = command.declare(app);
+    add_threads_option(app);
     app.callback([&, run_it, name = command.name] {
       chosen = name;
       what = run_it;
@@ -186,6 +188,7 @@ int main(int argc, char** argv) {
     to_stderr(fmt::format("{}: {} (see {} --help)\n", command, one_line(problem), command));
     return kWrongUsage;
   }
+  limit_opencl_threads();
   return run(chosen, what);
 }
 

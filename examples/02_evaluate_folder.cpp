@@ -21,7 +21,8 @@ int main(int argc, char** argv) {
   try {
     const gigaray::RunControl control;
     gigaray::LightField light_field = gigaray::open_light_field(argv[1]);
-    // Pictures without positions: the way the camera moved is assumed, and checked here.
+    // Pictures without positions: the way the camera moved is assumed. reconstruct() checks it too,
+    // at each call.
     gigaray::check_direction(light_field, control);
     const int centre = gigaray::centre_view(light_field);
     std::printf("%s, %s, %d views of %d x %d px\n", light_field.format.c_str(),

@@ -79,6 +79,7 @@ void DepthFolder::write_picture(const std::filesystem::path& folder, int view_id
   if (!unstructured && !nerfstudio_) return;
   const int bit_depth = light_field_.pixels->bit_depth();
   Image<std::uint16_t> picture = read_view(light_field_, view_idx);
+  light_field_.pixels->let_go(view_idx);
   take_mask(picture);
   picture = cropped(picture, disparity.width(), disparity.height());
   if (unstructured) {

@@ -123,6 +123,7 @@ LightField open_light_field(const fs::path& input, const OpenOptions& options) {
   } catch (const Error& problem) {
     throw Error(problem.code(), input.string() + ": " + problem.what());
   }
+  light_field = KeptPictures::over(options.kept, std::move(light_field));
   if (!options.positions.empty()) return light_field;
   if (const std::string note = unused_cameras(input, light_field.format); !note.empty())
     light_field.notes.push_back(note);

@@ -22,6 +22,7 @@ class ShrunkPictures : public PixelSource {
 
   int bit_depth() const override { return original_.pixels->bit_depth(); }
   bool has_mask() const override { return original_.pixels->has_mask(); }
+  void let_go(int view_idx) const override { original_.pixels->let_go(view_idx); }
 
   Image<std::uint16_t> read(int view_idx) const override {
     Image<std::uint16_t> picture = read_view(original_, view_idx);

@@ -6,7 +6,6 @@
 #include <atomic>
 #include <limits>
 #include <mutex>
-#include <thread>
 
 #include "gigaray/adapters/input_file.h"
 #include "gigaray/parallel.h"
@@ -49,7 +48,7 @@ struct SparseFile::Impl {
                        limit);
   }
 
-  static unsigned threads() { return std::max(1u, std::thread::hardware_concurrency()); }
+  static int threads() { return num_threads(); }
 
   /// Runs a decoder of a section; what it says of damage gets the name of the file.
   template <class Decode>

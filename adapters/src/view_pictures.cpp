@@ -85,6 +85,17 @@ class PictureFiles : public PixelSource {
   double limit_;
 };
 
+/// All that decides what a view is read as.
+std::string key_of(const Source& source, const Format& format) {
+  std::string key = source.file.string() + '\n' + source.mask.string();
+  for (const double number :
+       {double(source.is_alpha_used), double(format.width), double(format.height),
+        double(format.bit_depth), double(format.has_mask), double(format.scale.bits_of_16),
+        double(format.scale.bits_of_32), double(format.scale.full_light)})
+    key += '\n' + std::to_string(number);
+  return key;
+}
+
 using Size = std::pair<int, int>;
 
 /// A few pictures of another size are an accident; more of them are another capture.
@@ -218,7 +229,10 @@ void attach_pictures(LightField& light_field, std::vector<fs::path> files,
     if (num_scaled > 0) notes.push_back(scaled_masks_text(num_scaled));
     format.has_mask = true;
   }
-  light_field.pixels = std::make_shared<PictureFiles>(std::move(sources), format, limit);
+  std::vector<std::string> keys;
+  for (const Source& source : sources) keys.push_back(key_of(source, format));
+  light_field.pixels = KeptPictures::over(
+      options.kept, std::make_shared<PictureFiles>(std::move(sources), format, limit), keys);
 }
 
 }  // namespace gigaray

@@ -4,10 +4,10 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <thread>
 
 #include "experiments/experiments.h"
 #include "gigaray/adapters/atomic_output.h"
+#include "gigaray/parallel.h"
 
 namespace gigaray::experiments {
 namespace {
@@ -64,7 +64,7 @@ int main(int argc, char** argv) {
                                     {"question", chosen->question},
                                     {"program", "gigaray " GIGARAY_VERSION},
                                     {"device", report.device()},
-                                    {"threads", std::thread::hardware_concurrency()},
+                                    {"threads", num_threads()},
                                     {"repeats", repeats},
                                     {"rows", report.rows()}};
   write_file_atomically(folder.path() / "results.json", root.dump(2) + "\n");

@@ -50,6 +50,27 @@ TEST_F(ImageSequence, PixelsComeFromTheViewOfTheName) {
   EXPECT_EQ(light_field.pixels->bit_depth(), 8);
 }
 
+TEST_F(ImageSequence, KeptPicturesAreDecodedOnceHoweverOftenTheFolderIsOpened) {
+  for (int i = 1; i <= 6; ++i)
+    save("v" + std::to_string(i) + ".png", picture() + cv::Scalar::all(i));
+  OpenOptions options;
+  options.kept = std::make_shared<KeptPictures>();
+  const LightField row = open_light_field(folder, options);
+  const LightField plain = open();
+  for (int view = 0; view < 4; ++view) EXPECT_EQ(read_view(row, view), read_view(plain, view));
+  EXPECT_EQ(options.kept->num_decoded(), 4);
+  options.grid = {2, 3, true};
+  const LightField grid = open_light_field(folder, options);
+  for (int view = 0; view < 6; ++view) EXPECT_EQ(read_view(grid, view), read_view(plain, view));
+  EXPECT_EQ(options.kept->num_decoded(), 6);
+  // Masked they are others.
+  save("masks/v1.png", cv::Mat(kHeight, kWidth, CV_8UC1, cv::Scalar(255)));
+  options.masks = folder / "masks";
+  options.grid = {};
+  EXPECT_EQ(read_view(open_light_field(folder, options), 0).channels(), 4);
+  EXPECT_EQ(options.kept->num_decoded(), 7);
+}
+
 TEST_F(ImageSequence, CameraIsAssumedToMoveRight) {
   save_numbered(1, 3);
   const LightField light_field = open();

@@ -179,6 +179,8 @@ TEST_F(Layout, AGridNumberedRowByRowIsTakenAsOne) {
   EXPECT_NE(result.err.find("5 rows of 7"), std::string::npos) << result.err;
   EXPECT_NE(result.err.find("--grid 5x7"), std::string::npos) << result.err;
   EXPECT_LT(share_wrong(), 0.15);
+  // As a row and as a grid, in every layout and direction: each picture once.
+  EXPECT_NE(text_of("out/gigaray.json").find("\"pictures_decoded\": 35,"), std::string::npos);
   const Result info = run("info p");
   EXPECT_NE(info.out.find("4D"), std::string::npos) << info.out;
   EXPECT_NE(info.out.find("--grid 5x7"), std::string::npos) << info.out;

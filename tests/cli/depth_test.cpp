@@ -217,6 +217,9 @@ TEST_F(DepthCommand, PlainPicturesNeedNoDescriptionAndNoDirection) {
   EXPECT_NE(result.err.find("assumed to move to the right"), std::string::npos) << result.err;
   EXPECT_NE(result.err.find("direction left, other than assumed"), std::string::npos) << result.err;
   EXPECT_NE(result.err.find("disparity range "), std::string::npos) << result.err;
+  EXPECT_EQ(report("out").at("pictures_decoded"), 9) << "each once";
+  ASSERT_EQ(run("depth left -o small --views centre --max-size 60").exit_code, 0);
+  EXPECT_EQ(report("small").at("pictures_decoded"), 9);
   const DisparityScores scores = score_disparity(read_pfm(folder / "out/disparity.pfm"),
                                                  read_pfm(folder / "made/truth.pfm"), 5);
   EXPECT_LT(scores.bad_pix_007, 30);

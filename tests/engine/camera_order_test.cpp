@@ -5,7 +5,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <optional>
+#include <vector>
 
+#include "gigaray/reconstruct.h"
 #include "support/analytic_field.h"
 #include "support/errors.h"
 
@@ -196,6 +200,67 @@ TEST(CheckDirection, WhenNothingTellsNearFromFarTheAssumptionStaysAndIsReported)
   check_direction(light_field, messages.control);
   for (std::size_t i = 0; i < views.size(); ++i) EXPECT_EQ(light_field.views[i].s, views[i].s);
   EXPECT_NE(messages.all.find("both signs"), std::string::npos) << messages.all;
+}
+
+/// Depth of the middle of a row.
+Reconstruction depth_of(const LightField& light_field, std::optional<DisparityRange> range,
+                        const RunControl& control) {
+  DepthOptions options = auto_options();
+  options.disparity = range;
+  options.hypotheses = 16;
+  options.views = {3};
+  return reconstruct(light_field, options, {"reference", ""}, control);
+}
+
+TEST(Reconstruct, ADirectionThatIsOnlyAssumedIsCheckedAndTurned) {
+  const LightField truth = two_planes(row_of_views(7), 0.4, 1.7).light_field;
+  LightField mirrored = truth;
+  mirrored.sign_is_assumed = true;
+  for (View& view : mirrored.views) view.s = -view.s;
+  for (const auto& range :
+       std::vector<std::optional<DisparityRange>>{std::nullopt, DisparityRange{0, 2}}) {
+    LightField checked = mirrored;
+    const auto estimated = check_direction(checked, RunControl());
+    Reconstruction expected = depth_of(checked, range ? range : estimated, RunControl());
+    Messages messages;
+    Reconstruction found = depth_of(mirrored, range, messages.control);
+    EXPECT_NE(messages.all.find("direction left, other than assumed"), std::string::npos)
+        << messages.all;
+    EXPECT_EQ(messages.all.find("disparity range") != std::string::npos, !range) << messages.all;
+    EXPECT_EQ(found.options().disparity, expected.options().disparity);
+    const FloatMap a = expected.view(3).disparity, b = found.view(3).disparity;
+    for (std::size_t i = 0; i < a.size(); ++i)
+      ASSERT_TRUE(a.data()[i] == b.data()[i] ||
+                  (std::isnan(a.data()[i]) && std::isnan(b.data()[i])));
+    EXPECT_GT(a(80, 10), 0) << "nearer is positive";
+    for (int i = 0; i < 7; ++i)
+      EXPECT_EQ(found.light_field().views[i].s, truth.views[i].s) << "the positions of the maps";
+    EXPECT_FALSE(found.light_field().sign_is_assumed);
+    EXPECT_EQ(read_view(found.light_field(), 2), read_view(truth, 2));
+  }
+}
+
+TEST(Reconstruct, ADirectionThatIsAssumedRightlyNeedsNoWord) {
+  LightField light_field = two_planes(row_of_views(7), 0.4, 1.7).light_field;
+  light_field.sign_is_assumed = true;
+  Messages messages;
+  depth_of(light_field, DisparityRange{0, 2}, messages.control);
+  EXPECT_EQ(messages.all, "");
+}
+
+TEST(Reconstruct, ADirectionThatNothingTellsIsRefused) {
+  Layer above{-1.1, 9}, below{1.2, 9};
+  below.top = 48;
+  LightField light_field = analytic_field(161, 95, row_of_views(7), {above, below}).light_field;
+  light_field.sign_is_assumed = true;
+  expect_error(ErrorCode::kInvalidArgument, {"--direction", "sign_is_assumed"}, [&] {
+    depth_of(light_field, DisparityRange{-2, 2}, RunControl());
+  });
+  DepthOptions options = auto_options();
+  options.disparity = DisparityRange{-2, 2};
+  expect_error(ErrorCode::kInvalidArgument, {"--direction"}, [&] {
+    probe(light_field, options, {"reference", ""}, 3, 40, 40, RunControl());
+  });
 }
 
 }  // namespace

@@ -12,9 +12,9 @@
 #include <limits>
 #include <numbers>
 #include <string>
-#include <thread>
 
 #include "gigaray/error.h"
+#include "gigaray/parallel.h"
 
 namespace gigaray {
 namespace {
@@ -319,9 +319,7 @@ class Adjuster {
     solver.linear_solver_type = ceres::DENSE_SCHUR;
     solver.linear_solver_ordering.reset(ordering);
     solver.max_num_iterations = options_.max_iterations;
-    solver.num_threads = options_.num_threads > 0
-                             ? options_.num_threads
-                             : int(std::max(1u, std::thread::hardware_concurrency()));
+    solver.num_threads = options_.num_threads > 0 ? options_.num_threads : gigaray::num_threads();
     solver.logging_type = ceres::SILENT;
     StopWhenCancelled stop(control_);
     solver.callbacks.push_back(&stop);

@@ -19,6 +19,7 @@ class PicturesInMemory : public PixelSource {
       : pictures_(std::move(pictures)), bit_depth_(bit_depth) {}
   Image<std::uint16_t> read(int view_idx) const override { return pictures_.at(view_idx); }
   int bit_depth() const override { return bit_depth_; }
+  bool is_held() const override { return true; }
 
  private:
   std::vector<Image<std::uint16_t>> pictures_;
@@ -34,6 +35,10 @@ class PicturesOfLightField : public PixelSource {
   }
   bool has_mask() const override { return light_field_.pixels->has_mask(); }
   int bit_depth() const override { return light_field_.pixels->bit_depth(); }
+  bool is_held() const override { return light_field_.pixels->is_held(); }
+  void let_go(int view_idx) const override {
+    light_field_.pixels->let_go(which_.at(std::size_t(view_idx)));
+  }
 
  private:
   LightField light_field_;
@@ -110,6 +115,7 @@ LightField without(LightField light_field, const std::vector<int>& views) {
   for (int i = 0; i < light_field.num_views(); ++i) {
     if (std::find(views.begin(), views.end(), i) != views.end()) {
       rest.left_out.push_back(light_field.views[i]);
+      light_field.pixels->let_go(i);
       continue;
     }
     kept.push_back(i);

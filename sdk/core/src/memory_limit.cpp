@@ -17,6 +17,8 @@
 #include <string>
 #include <vector>
 
+#include "control_groups.h"
+
 namespace gigaray {
 namespace fs = std::filesystem;
 namespace {
@@ -58,15 +60,22 @@ double value_of(const std::map<std::string, double>& table, const char* key) {
   return found == table.end() ? 0 : found->second;
 }
 
-/// A kind of control groups: where they are, and what their files are called.
-struct GroupKind {
-  fs::path mount;
+/// What the files of a group are called.
+struct GroupFiles {
   std::vector<const char*> limits;
   const char* usage;
   std::vector<const char*> cached;  ///< keys of memory.stat, of the group and those in it
 };
 
-double left_by_group(const fs::path& group, const GroupKind& kind) {
+const GroupFiles kVersion1{{"memory.limit_in_bytes"},
+                           "memory.usage_in_bytes",
+                           {"total_inactive_file", "total_active_file"}};
+const GroupFiles kVersion2{
+    {"memory.max", "memory.high"}, "memory.current", {"inactive_file", "active_file"}};
+
+double left_by_group(const ControlGroup& of) {
+  const fs::path& group = of.folder;
+  const GroupFiles& kind = of.version == 1 ? kVersion1 : kVersion2;
   double limit = kUnlimited;
   for (const char* name : kind.limits)
     limit = std::min(limit, read_bytes(group / name).value_or(kUnlimited));
@@ -78,56 +87,18 @@ double left_by_group(const fs::path& group, const GroupKind& kind) {
   return std::max(0.0, limit - std::max(0.0, *usage - cached));
 }
 
-/// The least that a group and those around it leave. In a container the path can be that of the
-/// machine, of which only the root is to be seen: folders that are missing are passed over.
-double left_by_groups(const std::string& path, const GroupKind& kind) {
-  double left = left_by_group(kind.mount, kind);
-  fs::path group = kind.mount;
-  for (const fs::path& name : fs::path(path).relative_path()) {
-    if (name == "..") break;  // a group beside the root of this name space
-    group /= name;
-    left = std::min(left, left_by_group(group, kind));
-  }
-  return left;
-}
-
 double left_by_machine(const fs::path& root) {
   const auto table = read_table(root / "proc/meminfo");
   const auto available = table.find("MemAvailable:");
   return available == table.end() ? kUnlimited : available->second * 1024;
 }
 
-/// Is a controller in the list "cpu,memory"?
-bool names_memory(const std::string& controllers) {
-  return ("," + controllers + ",").find(",memory,") != std::string::npos;
-}
-
 }  // namespace
 
 double memory_left_by_system(const fs::path& root) {
-  const fs::path groups = root / "sys/fs/cgroup";
-  const GroupKind version_1{groups / "memory",
-                            {"memory.limit_in_bytes"},
-                            "memory.usage_in_bytes",
-                            {"total_inactive_file", "total_active_file"}};
-  GroupKind version_2{
-      groups, {"memory.max", "memory.high"}, "memory.current", {"inactive_file", "active_file"}};
-  std::error_code ignored;
-  if (fs::is_directory(groups / "unified", ignored)) version_2.mount = groups / "unified";
-
   double left = left_by_machine(root);
-  std::ifstream own(root / "proc/self/cgroup");
-  for (std::string line; std::getline(own, line);) {
-    // NUMBER:CONTROLLERS:PATH; a path may have colons.
-    const auto first = line.find(':'), second = line.find(':', first + 1);
-    if (first == std::string::npos || second == std::string::npos) continue;
-    const std::string controllers = line.substr(first + 1, second - first - 1);
-    const std::string path = line.substr(second + 1);
-    if (controllers.empty())
-      left = std::min(left, left_by_groups(path, version_2));
-    else if (names_memory(controllers))
-      left = std::min(left, left_by_groups(path, version_1));
-  }
+  for (const ControlGroup& group : control_groups(root, "memory"))
+    left = std::min(left, left_by_group(group));
   return left;
 }
 

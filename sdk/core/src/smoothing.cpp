@@ -37,6 +37,7 @@ class SmoothedPixels : public PixelSource {
   }
   bool has_mask() const override { return pixels_->has_mask(); }
   int bit_depth() const override { return pixels_->bit_depth(); }
+  void let_go(int view_idx) const override { pixels_->let_go(view_idx); }
 
  private:
   std::shared_ptr<const PixelSource> pixels_;

@@ -8,8 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "gigaray/scene_estimates.h"
+#include "disparity_range.h"
 #include "occlusion_votes.h"
+#include "settle_direction.h"
 
 namespace gigaray {
 namespace {
@@ -70,13 +71,14 @@ bool on_one_line(const std::vector<View>& views) {
 
 std::vector<Trial> try_orders(const LightField& light_field, const RunControl& control) {
   const bool line = on_one_line(light_field.views);
+  SmallViews small(light_field);
   std::vector<Trial> trials;
   std::optional<Error> refusal;
   for (const Order& order : kOrders) {
     if (line && (order.s_from_t < 0 || order.t_from_t < 0)) continue;
     Trial trial{&order, std::nullopt};
     try {
-      trial.estimate = estimate_disparity_range(turned(light_field, order, 1), control);
+      trial.estimate = estimate_disparity_range(turned(light_field, order, 1), small, control);
     } catch (const Error& error) {
       if (error.code() != ErrorCode::kBadInput) throw;
       if (!refusal) refusal = error;
@@ -121,15 +123,19 @@ void doubt_positions(const LightField& light_field, const RunControl& control) {
       "as they are", "with the sign of down changed", "with right and down exchanged",
       "with right and down exchanged and the sign of one changed"};
   std::array<double, 4> agreement{};
-  for (std::size_t i = 0; i < kOrders.size(); ++i)
-    agreement[i] = measure_agreement(central(turned(light_field, kOrders[i], 1)), control);
+  SmallViews small(light_field);
+  for (std::size_t i = 0; i < kOrders.size(); ++i) {
+    const LightField tried = turned(light_field, kOrders[i], 1);
+    agreement[i] = measure_agreement(tried, central_views(tried), small, control);
+  }
   const auto best = std::size_t(std::ranges::max_element(agreement) - agreement.begin());
   if (agreement[best] < agreement[0] + kClearLead) return;
   control.message("the stated positions are in doubt: views agree to " + percent(agreement[0]) +
                   " as they are, to " + percent(agreement[best]) + " " + kTurns[best]);
 }
 
-std::optional<DisparityRange> check_direction(LightField& light_field, const RunControl& control) {
+std::optional<SettledDirection> settle_direction(LightField& light_field,
+                                                 const RunControl& control) {
   if (!light_field.sign_is_assumed) return std::nullopt;
   const std::vector<Trial> trials = try_orders(light_field, control);
   const auto best = std::max_element(
@@ -155,14 +161,22 @@ std::optional<DisparityRange> check_direction(LightField& light_field, const Run
   std::string ways = turn ? chosen.order->ways_turned : chosen.order->ways;
   if (row) ways = ways.substr(0, ways.find(','));
   const bool as_assumed = &chosen == &trials.front() && !turn;
+  SettledDirection settled{estimate.range, "", !unclear};
   if (!row || !as_assumed || unclear)
-    control.message("direction " + ways + (as_assumed ? " as assumed" : ", other than assumed") +
-                    ": views agree to " + percent(chosen.agreement()) +
-                    ", in the next best order to " + percent(next) +
-                    (unclear ? "; disparities have both signs and nothing tells near from far: "
-                               "--direction states it"
-                             : ""));
-  return estimate.range;
+    settled.message = "direction " + ways + (as_assumed ? " as assumed" : ", other than assumed") +
+                      ": views agree to " + percent(chosen.agreement()) +
+                      ", in the next best order to " + percent(next) +
+                      (unclear ? "; disparities have both signs and nothing tells near from far: "
+                                 "--direction states it"
+                               : "");
+  return settled;
+}
+
+std::optional<DisparityRange> check_direction(LightField& light_field, const RunControl& control) {
+  const auto settled = settle_direction(light_field, control);
+  if (!settled) return std::nullopt;
+  if (!settled->message.empty()) control.message(settled->message);
+  return settled->range;
 }
 
 }  // namespace gigaray

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <thread>
 
 #include "gigaray/memory_limit.h"
+#include "gigaray/parallel.h"
 #include "gigaray/samplers/any_sampler.h"
 #include "gigaray/scratch_file.h"
 
@@ -124,10 +124,11 @@ class Planner {
     const double pitch = map_pitch(light_field_.width);
     const double view_maps = pitch * light_field_.height *
                              (27 + (support.slanted ? 24 : 0) + (options_.score.ray_mean ? 24 : 0));
-    const double threads = std::min(4u, std::max(1u, std::thread::hardware_concurrency()));
-    const double decoding = threads * 12.0 * light_field_.width * light_field_.height;
-    return std::max(view_maps, decoding);
+    return std::max(view_maps, std::min(4, num_threads()) * decoder_bytes());
   }
+
+  /// While a picture is decoded.
+  double decoder_bytes() const { return 12.0 * light_field_.width * light_field_.height; }
 
   /// What the compiler frees is where the maps of a view are made later.
   double compiler_bytes() const {
@@ -159,6 +160,10 @@ class Planner {
     }
     result.forecast.memory_bytes = fixed + peak_band + stores;
     result.compiler_bytes = compiler_bytes();
+    // Pictures that were kept from the first look (kept_pictures.h) may take a third of it.
+    const double free_for_decoding =
+        2.0 / 3 * (fixed + peak_band - kProcessBytes - options_.memory_beside);
+    result.decoders = int(std::clamp(free_for_decoding / decoder_bytes(), 1.0, 1024.0));
     result.forecast.disk_bytes = in_files ? store_bytes() : 0;
     const int first = result.levels.front().band_rows;
     result.forecast.bands = (light_field_.height + first - 1) / first;

@@ -28,6 +28,7 @@ struct MemoryPlan {
   /// The part of the forecast that compiling kernels takes. Every plan leaves room for it, so that
   /// a run needs as much whether its kernels are cached or not.
   double compiler_bytes = 0;
+  int decoders = 1;  ///< Pictures that may be decoded at a time, in the room of the bands to come.
 };
 
 /// options: resolved (range, hypotheses). Throws Error(kOutOfMemory) when even one row at a time

@@ -8,6 +8,9 @@
 #include <unordered_map>
 #include <vector>
 
+#include "gigaray/parallel.h"
+#include "picture_bands.h"
+
 namespace gigaray {
 namespace {
 
@@ -93,18 +96,32 @@ OcclusionVotes count_occlusions(const LightField& light_field, const RangeEstima
   for (const RangeEstimate::Match& match : estimate.matches)
     colours.push_back(colour_at(own, match.u, match.v, size, most));
 
-  OcclusionVotes votes;
-  std::size_t looked_at = 0;
-  for (auto view = order.rbegin(); view != order.rend() && looked_at < kMostViews; ++view) {
+  struct Look {
+    int view;
+    double ds, dt, steps;
+    OcclusionVotes votes;
+  };
+  std::vector<Look> looks;
+  for (auto view = order.rbegin(); view != order.rend() && looks.size() < kMostViews; ++view) {
     const double ds = centre.s - light_field.views[*view].s;
     const double dt = centre.t - light_field.views[*view].t;
     const double steps = std::hypot(ds, dt);
     if (steps == 0 || (steps > kReach && steps > 1.5 * estimate.radius)) continue;
-    control.throw_if_cancelled();
-    ++looked_at;
-    const Image<std::uint16_t> picture = read_view(light_field, *view);
-    const std::vector<Landing> landed = landings(estimate, colours, picture, ds, dt, most);
-    count_pairs(landed, light_field.width / size + 1, kApart * size / steps, votes);
+    looks.push_back({*view, ds, dt, steps, {}});
+  }
+  parallel_for(
+      int(looks.size()),
+      [&](int i) {
+        Look& look = looks[std::size_t(i)];
+        const Image<std::uint16_t> picture = read_view(light_field, look.view);
+        count_pairs(landings(estimate, colours, picture, look.ds, look.dt, most),
+                    light_field.width / size + 1, kApart * size / look.steps, look.votes);
+      },
+      [&](int) { control.throw_if_cancelled(); }, pictures_at_once(light_field));
+  OcclusionVotes votes;
+  for (const Look& look : looks) {
+    votes.nearer += look.votes.nearer;
+    votes.farther += look.votes.farther;
   }
   return votes;
 }

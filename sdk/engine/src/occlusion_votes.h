@@ -16,7 +16,7 @@ struct OcclusionVotes {
   int count() const { return nearer + farther; }
 };
 
-/// Looks at the reliable matches of an estimate for this very light field. Memory: one view.
+/// Looks at the reliable matches of an estimate for this very light field. Memory: a few views.
 OcclusionVotes count_occlusions(const LightField& light_field, const RangeEstimate& estimate,
                                 const RunControl& control);
 

@@ -81,6 +81,7 @@ void Pipeline::decode() {
   control_.progress("decode", 0, views);
   const auto decode_view = [&](int view) {
     Image<std::uint16_t> picture = read_view(light_field_, view);
+    light_field_.pixels->let_go(view);
     if (const auto mask = take_mask(picture))
       for (int v = 0; v < height; ++v) shown.write(v, view * width, width, mask->row(v));
     std::vector<std::uint8_t> bytes(line);
@@ -93,7 +94,9 @@ void Pipeline::decode() {
       pixels.write(v, view * line * value_bytes, line * value_bytes, row);
     }
   };
-  parallel_for(views, decode_view, [&](int done) { control_.progress("decode", done, views); });
+  parallel_for(
+      views, decode_view, [&](int done) { control_.progress("decode", done, views); },
+      plan_.decoders);
   levels_[0].pixels = LevelRows(workspace_, std::move(pixels), height, views, plan_.place);
   if (!shown.empty()) shown_ = LevelRows(workspace_, std::move(shown), height, views, plan_.place);
 }

@@ -8,6 +8,7 @@
 #include <span>
 #include <sstream>
 
+#include "gigaray/kept_pictures.h"
 #include "gigaray/scene_estimates.h"
 #include "gigaray/smoothing.h"
 #include "inverse_depths.h"
@@ -15,6 +16,7 @@
 #include "opencl/ready_kernels.h"
 #include "pipeline.h"
 #include "reconstruction_impl.h"
+#include "settle_direction.h"
 #include "stage_timer.h"
 
 namespace gigaray {
@@ -70,15 +72,35 @@ void adapt_to_noise(Prepared& run, const RunControl& control) {
   apply_noise(noise, run.options);
 }
 
+std::string range_message(const DisparityRange& range) {
+  std::ostringstream text;
+  text << "disparity range " << range.min << " … " << range.max
+       << " px per view step, estimated from the pictures";
+  return text.str();
+}
+
+/// Finds which way the camera goes where that is only assumed, and takes the range that it had to
+/// estimate for that. Mirrored depth would look finished.
+void require_direction(LightField& light_field, DepthOptions& options, const RunControl& control) {
+  const auto settled = settle_direction(light_field, control);
+  if (!settled) return;
+  if (!settled->is_clear)
+    throw Error(ErrorCode::kInvalidArgument,
+                "which way the camera goes is only assumed, and disparities of both signs don't "
+                "tell: state it with OpenOptions::direction (--direction), or take the assumption "
+                "by sign_is_assumed = false");
+  if (!settled->message.empty()) control.message(settled->message);
+  if (options.disparity) return;
+  options.disparity = settled->range;
+  control.message(range_message(settled->range));
+}
+
 /// Range and hypotheses of parallel views.
 void prepare_range(Prepared& run, const RunControl& control) {
   if (!run.options.disparity) run.options.disparity = run.light_field.declared_range;
   if (!run.options.disparity) {
     run.options.disparity = estimate_disparity_range(run.light_field, control).range;
-    std::ostringstream text;
-    text << "disparity range " << run.options.disparity->min << " … " << run.options.disparity->max
-         << " px per view step, estimated from the pictures";
-    control.message(text.str());
+    control.message(range_message(*run.options.disparity));
   }
   run.hypotheses = sample_range(run.options, run.light_field);
 }
@@ -180,7 +202,14 @@ Reconstruction reconstruct(const LightField& light_field, const DepthOptions& op
   std::unique_ptr<Workspace> workspace;
   {
     const StageTimer timer(impl->seconds, "prepare");
-    Prepared run = prepare(light_field, options, control);
+    check(light_field);
+    LightField given =
+        KeptPictures::over(std::make_shared<KeptPictures>(options.memory_bytes), light_field);
+    DepthOptions wanted = options;
+    require_direction(given, wanted, control);
+    Prepared run = prepare(given, wanted, control);
+    impl->light_field = std::move(given);
+    impl->light_field.pixels = light_field.pixels;
     impl->plan = plan_run(run, backend);
     job = kernel_job(run, backend);
     adapt_to_pictures(run, control);
@@ -225,7 +254,11 @@ ScoreCurve probe(const LightField& light_field, const DepthOptions& options,
                                                  std::to_string(v) + " is outside the picture of " +
                                                  std::to_string(width) + "x" +
                                                  std::to_string(height));
-  Prepared run = prepare(light_field, options, control);
+  check(light_field);
+  LightField given = light_field;
+  DepthOptions wanted = options;
+  require_direction(given, wanted, control);
+  Prepared run = prepare(given, wanted, control);
   adapt_to_pictures(run, control);
   const auto workspace = make_workspace(run, choice);
   const AnySampler sampler = make_sampler(run.light_field);
@@ -274,14 +307,14 @@ ScoreCurve probe(const LightField& light_field, const DepthOptions& options,
   const auto todo = workspace->make_map<std::uint8_t>(width, all);
   const auto bounds = workspace->make_map<HypothesisBounds>(width, all);
   const HypothesisBounds full{0, std::uint16_t(run.hypotheses.count - 1)};
-  StripMap<std::uint8_t> wanted(width, strip);
+  StripMap<std::uint8_t> window(width, strip);
   StripMap<HypothesisBounds> tested(width, strip);
   for (int y = strip.begin; y < strip.end; ++y)
     for (int x = std::max(u - radius, 0); x <= std::min(u + radius, width - 1); ++x) {
-      wanted.row(y)[x] = 1;
+      window.row(y)[x] = 1;
       tested.row(y)[x] = full;
     }
-  workspace->put(wanted, todo);
+  workspace->put(window, todo);
   workspace->put(tested, bounds);
   if (run.options.score.gradient)
     workspace->robust_score(view_idx, strip, todo, bounds, ScoreViews::kAll);

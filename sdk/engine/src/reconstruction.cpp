@@ -32,6 +32,7 @@ HypothesisRange Reconstruction::hypotheses() const {
   const InverseDepthRange all = all_inverse_depths(impl_->cameras);
   return {all.min, all.max, impl_->hypotheses.count};
 }
+const LightField& Reconstruction::light_field() const { return impl_->light_field; }
 const std::vector<Camera>& Reconstruction::cameras() const { return impl_->cameras; }
 const std::vector<int>& Reconstruction::views() const { return impl_->views; }
 int Reconstruction::num_levels() const { return int(impl_->plan.levels.size()); }

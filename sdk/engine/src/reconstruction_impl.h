@@ -17,6 +17,7 @@
 namespace gigaray {
 
 struct Reconstruction::Impl {
+  LightField light_field;  ///< as it came, with the axes turned where they were only assumed
   DepthOptions options;
   HypothesisRange hypotheses;  ///< as the engine steps through them
   std::optional<AnySampler> sampler;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 #include <memory>
+#include <mutex>
 
 #include "gigaray/scene_estimates.h"
 
@@ -23,10 +24,16 @@ class SmallPictures : public PixelSource {
       factor_ *= 2;
   }
   Image<std::uint16_t> read(int view) const override {
-    const auto found = known_.find(view);
-    if (found != known_.end()) return found->second;
-    return known_.emplace(view, reduced(read_view(light_field_, view))).first->second;
+    {
+      const std::lock_guard lock(mutex_);
+      const auto found = known_.find(view);
+      if (found != known_.end()) return found->second;
+    }
+    Image<std::uint16_t> small = reduced(read_view(light_field_, view));
+    const std::lock_guard lock(mutex_);
+    return known_.emplace(view, std::move(small)).first->second;
   }
+  bool is_held() const override { return true; }
   bool has_mask() const override { return light_field_.pixels->has_mask(); }
   int bit_depth() const override { return light_field_.pixels->bit_depth(); }
   int width() const { return light_field_.width / factor_; }
@@ -50,6 +57,7 @@ class SmallPictures : public PixelSource {
 
   LightField light_field_;
   int factor_ = 1;
+  mutable std::mutex mutex_;
   mutable std::map<int, Image<std::uint16_t>> known_;
 };
 

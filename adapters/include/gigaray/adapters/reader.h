@@ -3,9 +3,11 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 
 #include "gigaray/adapters/pose_convention.h"
+#include "gigaray/kept_pictures.h"
 #include "gigaray/light_field.h"
 
 namespace gigaray {
@@ -61,6 +63,9 @@ struct OpenOptions {
   /// rows and grids, that has another size than nearly all is an error. Else it is left out, with a
   /// note.
   bool strict = false;
+  /// Keeps the pictures that are decoded, so that none is decoded twice; opened again with the same
+  /// options, files share them. Empty: each read decodes.
+  std::shared_ptr<KeptPictures> kept = {};
 };
 
 /// Recognises what `input` is (registry.h) and opens it. Reads the headers of the pictures, not

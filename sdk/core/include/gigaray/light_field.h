@@ -64,6 +64,10 @@ class PixelSource {
   /// picture smaller than the light field, masked by the user?
   virtual bool has_mask() const { return false; }
   virtual int bit_depth() const = 0;  ///< 8 or 16, the same for all views.
+  /// Are the pictures in memory, so that reading one again is only a copy?
+  virtual bool is_held() const { return false; }
+  /// Nobody is going to read the picture soon: what keeps it (kept_pictures.h) may free it.
+  virtual void let_go(int view_idx) const {}
 };
 
 /// How an adapter read poses that an input states: pose_convention.h of the adapters.
@@ -87,8 +91,8 @@ struct LightField {
   std::shared_ptr<const PixelSource> pixels;
   std::string format;              ///< What the adapter recognised, e.g. "image sequence".
   std::vector<std::string> notes;  ///< What the adapter assumed; one line each, for the user.
-  /// Which way the camera goes as s and as t rise is an assumption that photo-consistency should
-  /// check.
+  /// Which way the camera goes as s and as t rise is an assumption that photo-consistency checks:
+  /// check_direction() of the engine, which reconstruct() calls where nobody has before.
   bool sign_is_assumed = false;
   /// kUnstructured: there while the pictures have not confirmed the poses that the input states.
   std::optional<PoseReading> pose_reading;

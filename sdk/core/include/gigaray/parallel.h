@@ -2,68 +2,33 @@
 // Copyright (c) 2026 The Gigaray authors
 #pragma once
 
-#include <algorithm>
-#include <atomic>
-#include <condition_variable>
-#include <exception>
-#include <mutex>
-#include <thread>
-#include <vector>
+#include <filesystem>
+#include <functional>
 
 namespace gigaray {
 
-/// Runs job(0) … job(count - 1) on all cores; report(1) … report(count) on this thread. The first
-/// exception, of a job or of report, stops the rest and is thrown again.
-template <class Job, class Report>
-void parallel_for(int count, Job job, Report report) {
-  std::mutex mutex;
-  std::condition_variable changed;
-  std::atomic<int> next{0};
-  std::exception_ptr failure;
-  int done = 0, idle = 0;
-  const int num_workers = std::clamp(int(std::thread::hardware_concurrency()), 1, count);
-  const auto stop_with = [&](std::exception_ptr error) {
-    next = count;
-    if (!failure) failure = error;
-  };
-  const auto work = [&] {
-    for (int i = next++; i < count; i = next++) {
-      std::exception_ptr error;
-      try {
-        job(i);
-      } catch (...) {
-        error = std::current_exception();
-      }
-      const std::lock_guard lock(mutex);
-      if (error) stop_with(error);
-      ++done;
-      changed.notify_one();
-    }
-    const std::lock_guard lock(mutex);
-    ++idle;
-    changed.notify_one();
-  };
-  {
-    std::vector<std::jthread> workers;
-    for (int i = 0; i < num_workers; ++i) workers.emplace_back(work);
-    std::unique_lock lock(mutex);
-    for (int reported = 0; idle < num_workers || (reported < done && !failure);) {
-      changed.wait(lock, [&] { return reported < done || idle == num_workers; });
-      if (reported == done) continue;
-      ++reported;
-      if (failure) continue;
-      lock.unlock();
-      std::exception_ptr error;
-      try {
-        report(reported);
-      } catch (...) {
-        error = std::current_exception();
-      }
-      lock.lock();
-      if (error) stop_with(error);
-    }
-  }
-  if (failure) std::rethrow_exception(failure);
-}
+/// Processors that this process may use, 1 or more: those of its affinity mask (`taskset`), less
+/// what the quotas of its control groups allow (`docker run --cpus`), rounded up. The same at every
+/// call.
+int available_processors();
+
+/// Processors that the quotas of the control groups allow, rounded up, by the files of /proc and
+/// /sys under `root`; 0 when they say nothing.
+int processors_left_by_groups(const std::filesystem::path& root);
+
+/// Threads that the loops of this process run on, the calling one included: as stated, else
+/// available_processors(). No result depends on it.
+int num_threads();
+
+/// States that number, 1 or more; 0: available_processors() again. Anything else throws
+/// Error(kInvalidArgument). Holds for the loops that begin later.
+void set_num_threads(int threads);
+
+/// Runs job(0) … job(count - 1), begun in this order, on num_threads() threads, of which this is
+/// one, and on `most_threads` of them at most unless that is 0. report(1) … report(count) are
+/// called on this thread, between its own jobs and at the end. The first exception, of a job or of
+/// report, stops the rest and is thrown again. Loops inside jobs share the threads.
+void parallel_for(int count, const std::function<void(int)>& job,
+                  const std::function<void(int)>& report, int most_threads = 0);
 
 }  // namespace gigaray

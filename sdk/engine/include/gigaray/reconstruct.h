@@ -88,6 +88,9 @@ class Reconstruction {
   /// The options as they were used: range, number of hypotheses and bandwidths filled in.
   const DepthOptions& options() const;
   HypothesisRange hypotheses() const;  ///< unstructured: from the least to the largest of all views
+  /// The light field that the maps belong to: the one given or, where the direction of the camera
+  /// was only assumed and is another, with its axes turned.
+  const LightField& light_field() const;
   /// Unstructured: the cameras, with the range of inverse depths that each searched. Else empty.
   const std::vector<Camera>& cameras() const;
   const std::vector<int>& views() const;  ///< Views that have depth.
@@ -114,8 +117,10 @@ class Reconstruction {
 
 /// Depth for every view of a light field: the whole method of METHOD's steps 1–7 on all levels.
 /// The result does not depend on memory, bands or threads; twice the same input gives the same
-/// bits. Throws Error: kInvalidArgument (options), kBadInput (light field), kDevice, kIo,
-/// kOutOfMemory, kCancelled.
+/// bits. A direction that is only assumed (LightField::sign_is_assumed) is checked as
+/// check_direction() does, with a message; Reconstruction::light_field() has the positions that
+/// were found. Throws Error: kInvalidArgument (options; a direction that is only assumed and that
+/// the pictures don't tell), kBadInput (light field), kDevice, kIo, kOutOfMemory, kCancelled.
 Reconstruction reconstruct(const LightField& light_field, const DepthOptions& options,
                            const BackendChoice& backend, const RunControl& control);
 
@@ -139,7 +144,8 @@ struct ScoreCurve {
   std::vector<Radiance> samples;
 };
 
-/// The score curve of pixel (u, v) of a view at level 0, with all hypotheses.
+/// The score curve of pixel (u, v) of a view at level 0, with all hypotheses. Checks a direction
+/// that is only assumed as reconstruct() does.
 ScoreCurve probe(const LightField& light_field, const DepthOptions& options,
                  const BackendChoice& backend, int view_idx, int u, int v,
                  const RunControl& control);

@@ -32,9 +32,6 @@ struct RangeEstimate {
 /// Throws Error(kBadInput) when nothing can be matched; --disparity is the way out then.
 RangeEstimate estimate_disparity_range(const LightField& light_field, const RunControl& control);
 
-/// The views that estimate_disparity_range looks at, the one in the middle first.
-LightField central(const LightField& light_field);
-
 /// Mean score of the strongest edges of the first view of a line or grid at their best hypothesis,
 /// 0 … 1; 0 without edges. For trials: a fifth of the pixels of estimate_disparity_range.
 double measure_agreement(const LightField& light_field, const RunControl& control);

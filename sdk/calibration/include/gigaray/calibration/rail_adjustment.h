@@ -34,7 +34,7 @@ struct RailAdjustmentOptions {
   /// Scale of the Cauchy loss, px: sightings beyond it count less and less.
   double loss_px = 1;
   int max_iterations = 60;
-  int num_threads = 0;  ///< 0: one per core
+  int num_threads = 0;  ///< 0: those of parallel.h
 };
 
 /// A rail that fits its tracks.
