@@ -23,7 +23,7 @@ std::string readable_size(std::uint64_t bytes) {
   return text;
 }
 
-cl_mem create(const Device& device, cl_mem_flags flags, std::size_t bytes, void* host) {
+cl::Buffer create(const Device& device, cl_mem_flags flags, std::size_t bytes, void* host) {
   GIGARAY_CHECK(bytes > 0);
   const auto& info = device.info();
   if (bytes > info.max_allocation)
@@ -32,7 +32,7 @@ cl_mem create(const Device& device, cl_mem_flags flags, std::size_t bytes, void*
                     " is larger than its largest allocation of " +
                     readable_size(info.max_allocation) + "; use less --memory or another --device");
   cl_int error = CL_SUCCESS;
-  const cl_mem memory = clCreateBuffer(device.context().get(), flags, bytes, host, &error);
+  cl::Buffer memory(device.context(), flags, bytes, host, &error);
   if (error == CL_MEM_OBJECT_ALLOCATION_FAILURE || error == CL_OUT_OF_HOST_MEMORY ||
       error == CL_OUT_OF_RESOURCES)
     throw Error(ErrorCode::kOutOfMemory, "device " + info.name + ": no room for a buffer of " +
@@ -56,8 +56,8 @@ void CL_CALLBACK unmap_pages(cl_mem, void* data) {
 
 std::string to_text(const WorkSize& size) {
   std::string text;
-  for (cl_uint i = 0; i < size.dimensions; ++i)
-    text += (i ? " x " : "") + std::to_string(size.size[i]);
+  for (std::size_t i = 0; i < size.dimensions(); ++i)
+    text += (i ? " x " : "") + std::to_string(size.get()[i]);
   return text;
 }
 
@@ -71,7 +71,7 @@ Buffer::Buffer(const Device& device, std::size_t bytes)
 Buffer Buffer::over_host_memory(const Device& device, std::span<std::byte> memory) {
   Buffer buffer;
   buffer.memory_ =
-      Memory(create(device, CL_MEM_READ_WRITE | CL_MEM_USE_HOST_PTR, memory.size(), memory.data()));
+      create(device, CL_MEM_READ_WRITE | CL_MEM_USE_HOST_PTR, memory.size(), memory.data());
   buffer.queue_ = device.queue();
   buffer.bytes_ = memory.size();
   return buffer;
@@ -93,7 +93,7 @@ Buffer Buffer::zeroed(const Device& device, std::size_t bytes) {
   Buffer buffer;
   try {
     buffer = over_host_memory(device, {static_cast<std::byte*>(begin), bytes});
-    GIGARAY_CL(clSetMemObjectDestructorCallback(buffer.get(), unmap_pages, pages.get()));
+    GIGARAY_CL(buffer.memory_.setDestructorCallback(unmap_pages, pages.get()));
   } catch (...) {
     buffer = Buffer();
     munmap(begin, bytes);
@@ -106,83 +106,39 @@ Buffer Buffer::zeroed(const Device& device, std::size_t bytes) {
 void Buffer::write_bytes(const void* data, std::size_t bytes, std::size_t offset) {
   GIGARAY_CHECK(offset <= bytes_ && bytes <= bytes_ - offset);
   if (bytes == 0) return;
-  GIGARAY_CL(
-      clEnqueueWriteBuffer(queue_.get(), get(), CL_TRUE, offset, bytes, data, 0, nullptr, nullptr));
+  GIGARAY_CL(queue_.enqueueWriteBuffer(memory_, CL_TRUE, offset, bytes, data));
 }
 
 void Buffer::read_bytes(void* data, std::size_t bytes, std::size_t offset, cl_bool blocking) const {
   GIGARAY_CHECK(offset <= bytes_ && bytes <= bytes_ - offset);
   if (bytes == 0) return;
-  GIGARAY_CL(
-      clEnqueueReadBuffer(queue_.get(), get(), blocking, offset, bytes, data, 0, nullptr, nullptr));
+  GIGARAY_CL(queue_.enqueueReadBuffer(memory_, blocking, offset, bytes, data));
 }
 
-void Buffer::clear() {
-  const cl_uchar zero = 0;
-  GIGARAY_CL(
-      clEnqueueFillBuffer(queue_.get(), get(), &zero, sizeof zero, 0, bytes_, 0, nullptr, nullptr));
-}
+void Buffer::clear() { GIGARAY_CL(queue_.enqueueFillBuffer(memory_, cl_uchar(0), 0, bytes_)); }
 
-Mapping::Mapping(const Buffer& buffer, Access access)
-    : memory_(buffer.memory_), queue_(buffer.queue_), bytes_(buffer.bytes_) {
-  cl_int error = CL_SUCCESS;
-  const cl_map_flags flags =
-      access == Access::kRead ? CL_MAP_READ : cl_map_flags(CL_MAP_READ | CL_MAP_WRITE);
-  data_ = clEnqueueMapBuffer(queue_.get(), memory_.get(), CL_TRUE, flags, 0, bytes_, 0, nullptr,
-                             nullptr, &error);
-  check_cl(error, "clEnqueueMapBuffer of " + readable_size(bytes_));
-}
-
-Mapping::~Mapping() {
-  // A failure shows again, and can be thrown, at the next call on this in-order queue.
-  clEnqueueUnmapMemObject(queue_.get(), memory_.get(), data_, 0, nullptr, nullptr);
-}
-
-Kernel::Kernel(const Device& device, const Program& program, const std::string& name)
+Kernel::Kernel(const Device& device, const cl::Program& program, const std::string& name)
     : queue_(device.queue()), log_(device.log()), name_(name) {
   cl_int error = CL_SUCCESS;
-  kernel_ = Object(clCreateKernel(program.get(), name.c_str(), &error));
+  kernel_ = cl::Kernel(program, name.c_str(), &error);
   check_cl(error, "clCreateKernel of " + name);
 }
 
-void Kernel::set_raw_arg(cl_uint index, std::size_t size, const void* value) {
-  const cl_int error = clSetKernelArg(kernel_.get(), index, size, value);
+void Kernel::check_arg(cl_int error, cl_uint index, std::size_t bytes) const {
   if (error != CL_SUCCESS)
     check_cl(error, "argument " + std::to_string(index) + " of kernel " + name_ + " (" +
-                        std::to_string(size) + " bytes)");
-}
-
-void Kernel::enqueue(const WorkSize& global, const WorkSize& local, cl_event* event) const {
-  GIGARAY_CHECK(global.dimensions == local.dimensions);
-  const cl_int error =
-      clEnqueueNDRangeKernel(queue_.get(), kernel_.get(), global.dimensions, nullptr,
-                             global.size.data(), local.size.data(), 0, nullptr, event);
-  if (error != CL_SUCCESS)
-    check_cl(error, "kernel " + name_ + " over " + to_text(global) + " items in groups of " +
-                        to_text(local));
+                        std::to_string(bytes) + " bytes)");
 }
 
 void Kernel::run(const WorkSize& global, const WorkSize& local) const {
-  if (!log_) {
-    enqueue(global, local, nullptr);
-    return;
-  }
-  cl_event raw = nullptr;
-  enqueue(global, local, &raw);
-  log_->add(Event(raw));
-}
-
-double Kernel::run_timed(const WorkSize& global, const WorkSize& local) const {
-  cl_event raw = nullptr;
-  enqueue(global, local, &raw);
-  const Event event(raw);
-  GIGARAY_CL(clWaitForEvents(1, &raw));
-  cl_ulong begin = 0;
-  cl_ulong end = 0;
-  GIGARAY_CL(
-      clGetEventProfilingInfo(raw, CL_PROFILING_COMMAND_START, sizeof begin, &begin, nullptr));
-  GIGARAY_CL(clGetEventProfilingInfo(raw, CL_PROFILING_COMMAND_END, sizeof end, &end, nullptr));
-  return double(end - begin) * 1e-9;
+  GIGARAY_CHECK(global.dimensions() == local.dimensions());
+  cl::Event event;
+  const cl_int error = queue_.enqueueNDRangeKernel(kernel_, cl::NullRange, global, local, nullptr,
+                                                   log_ ? &event : nullptr);
+  if (error != CL_SUCCESS)
+    check_cl(error, "kernel " + name_ + " over " + to_text(global) + " items in groups of " +
+                        to_text(local));
+  if (log_) log_->add(std::move(event));
 }
 
 }  // namespace gigaray::opencl

@@ -2,9 +2,7 @@
 // Copyright (c) 2026 The Gigaray authors
 #pragma once
 
-#include <array>
 #include <cstddef>
-#include <initializer_list>
 #include <span>
 #include <string>
 #include <type_traits>
@@ -30,7 +28,7 @@ class Buffer {
   }
 
   /// Over the caller's memory, which must outlive the buffer: no copy on a device that
-  /// shares_host_memory. While the buffer lives, the host looks at it through a Mapping only.
+  /// shares_host_memory. While the buffer lives, the host looks at it through read() and write().
   /// An alignment of 64 bytes lets every CPU driver do without a copy.
   static Buffer over_host_memory(const Device& device, std::span<std::byte> memory);
 
@@ -39,7 +37,7 @@ class Buffer {
   static Buffer zeroed(const Device& device, std::size_t bytes);
 
   std::size_t bytes() const { return bytes_; }
-  cl_mem get() const { return memory_.get(); }
+  const cl::Buffer& get() const { return memory_; }
 
   /// Copies to or from the buffer, starting at `offset` bytes.
   template <class T>
@@ -61,53 +59,19 @@ class Buffer {
   void clear();
 
  private:
-  friend class Mapping;
-  using Memory = Handle<cl_mem, clRetainMemObject, clReleaseMemObject>;
-
   void write_bytes(const void* data, std::size_t bytes, std::size_t offset);
   void read_bytes(void* data, std::size_t bytes, std::size_t offset, cl_bool blocking) const;
 
-  Memory memory_;
-  Queue queue_;
-  std::size_t bytes_ = 0;
-};
-
-/// A buffer seen from the host until the end of the scope; no kernel may use it meanwhile.
-class Mapping {
- public:
-  enum class Access { kRead, kWrite };  ///< kWrite: the old content is kept where not written.
-
-  Mapping(const Buffer& buffer, Access access);
-  ~Mapping();
-  Mapping(const Mapping&) = delete;
-  Mapping& operator=(const Mapping&) = delete;
-
-  template <class T>
-  std::span<T> as() const {
-    return {static_cast<T*>(data_), bytes_ / sizeof(T)};
-  }
-
- private:
-  Buffer::Memory memory_;
-  Queue queue_;
-  void* data_ = nullptr;
+  cl::Buffer memory_;
+  cl::CommandQueue queue_;
   std::size_t bytes_ = 0;
 };
 
 /// An argument of a kernel: that many bytes of local memory per work-group.
-struct LocalMemory {
-  std::size_t bytes;
-};
+using LocalMemory = cl::LocalSpaceArg;
 
 /// Work-items in one to three dimensions.
-struct WorkSize {
-  WorkSize(std::size_t x) : size{x, 1, 1}, dimensions(1) {}
-  WorkSize(std::size_t x, std::size_t y) : size{x, y, 1}, dimensions(2) {}
-  WorkSize(std::size_t x, std::size_t y, std::size_t z) : size{x, y, z}, dimensions(3) {}
-
-  std::array<std::size_t, 3> size;
-  cl_uint dimensions;
-};
+using WorkSize = cl::NDRange;
 
 /// A kernel of a program with its arguments. Movable. An argument buffer must live until the kernel
 /// has run.
@@ -115,7 +79,7 @@ class Kernel {
  public:
   Kernel() = default;
   /// Throws Error(kDevice) when the program has no kernel of that name.
-  Kernel(const Device& device, const Program& program, const std::string& name);
+  Kernel(const Device& device, const cl::Program& program, const std::string& name);
 
   const std::string& name() const { return name_; }
 
@@ -130,31 +94,24 @@ class Kernel {
   /// Enqueues the kernel. Every dimension of `global` must be a multiple of `local`.
   void run(const WorkSize& global, const WorkSize& local) const;
 
-  /// Runs it, waits, and returns the seconds on the device. The device must be open with profiling.
-  double run_timed(const WorkSize& global, const WorkSize& local) const;
-
  private:
-  using Object = Handle<cl_kernel, clRetainKernel, clReleaseKernel>;
-
   template <class T>
   void set_arg(cl_uint index, const T& value) {
     if constexpr (std::is_same_v<T, Buffer>) {
-      const cl_mem memory = value.get();
-      set_raw_arg(index, sizeof memory, &memory);
+      check_arg(kernel_.setArg(index, value.get()), index, sizeof(cl_mem));
     } else if constexpr (std::is_same_v<T, LocalMemory>) {
-      set_raw_arg(index, value.bytes, nullptr);
+      check_arg(kernel_.setArg(index, value), index, value.size_);
     } else {
       // The sizes of bool, size_t and pointers on the device may differ from the host's.
       static_assert(std::is_trivially_copyable_v<T> && !std::is_pointer_v<T> &&
                     !std::is_same_v<T, bool>);
-      set_raw_arg(index, sizeof value, &value);
+      check_arg(kernel_.setArg(index, sizeof value, &value), index, sizeof value);
     }
   }
-  void set_raw_arg(cl_uint index, std::size_t size, const void* value);
-  void enqueue(const WorkSize& global, const WorkSize& local, cl_event* event) const;
+  void check_arg(cl_int error, cl_uint index, std::size_t bytes) const;
 
-  Object kernel_;
-  Queue queue_;
+  cl::Kernel kernel_;
+  cl::CommandQueue queue_;
   std::shared_ptr<EventLog> log_;
   std::string name_;
 };

@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cstdlib>
 #include <mutex>
+#include <type_traits>
 #include <vector>
 
 #include "opencl/cache_folder.h"
@@ -20,60 +21,45 @@ constexpr cl_int kPlatformNotFound = -1001;
 constexpr const char* kPocl = "Portable Computing Language";
 
 struct FoundDevice {
-  cl_device_id id;
+  cl::Device device;
   DeviceInfo info;
 };
 
-template <class T>
-T query(cl_device_id device, cl_device_info what) {
-  T value{};
-  check_cl(clGetDeviceInfo(device, what, sizeof value, &value, nullptr), "clGetDeviceInfo");
-  return value;
-}
-
-std::string trimmed_c_string(std::string text) {
-  return std::string(trimmed(std::string_view(text).substr(0, text.find('\0'))));
-}
-
-std::string query_text(cl_device_id device, cl_device_info what) {
-  std::size_t size = 0;
-  check_cl(clGetDeviceInfo(device, what, 0, nullptr, &size), "clGetDeviceInfo");
-  std::string text(size, '\0');
-  check_cl(clGetDeviceInfo(device, what, size, text.data(), nullptr), "clGetDeviceInfo");
-  return trimmed_c_string(std::move(text));
-}
-
-std::string query_text(cl_platform_id platform, cl_platform_info what) {
-  std::size_t size = 0;
-  check_cl(clGetPlatformInfo(platform, what, 0, nullptr, &size), "clGetPlatformInfo");
-  std::string text(size, '\0');
-  check_cl(clGetPlatformInfo(platform, what, size, text.data(), nullptr), "clGetPlatformInfo");
-  return trimmed_c_string(std::move(text));
+/// A property of a device or platform.
+template <auto kWhat, class T>
+auto query(const T& object) {
+  cl_int error = CL_SUCCESS;
+  auto value = object.template getInfo<kWhat>(&error);
+  check_cl(error, "asking a device about itself");
+  if constexpr (std::is_same_v<decltype(value), std::string>)
+    return std::string(trimmed(value.c_str()));  // some drivers count more than one NUL
+  else
+    return value;
 }
 
 bool has_extension(const std::string& extensions, const std::string& name) {
   return (" " + extensions + " ").find(" " + name + " ") != std::string::npos;
 }
 
-DeviceInfo describe(cl_platform_id platform, cl_device_id device, int index) {
+DeviceInfo describe(const cl::Platform& platform, const cl::Device& device, int index) {
   DeviceInfo info;
   info.index = index;
-  info.name = query_text(device, CL_DEVICE_NAME);
-  info.vendor = query_text(device, CL_DEVICE_VENDOR);
-  info.platform = query_text(platform, CL_PLATFORM_NAME);
-  info.platform_version = query_text(platform, CL_PLATFORM_VERSION);
-  info.driver_version = query_text(device, CL_DRIVER_VERSION);
-  const auto type = query<cl_device_type>(device, CL_DEVICE_TYPE);
+  info.name = query<CL_DEVICE_NAME>(device);
+  info.vendor = query<CL_DEVICE_VENDOR>(device);
+  info.platform = query<CL_PLATFORM_NAME>(platform);
+  info.platform_version = query<CL_PLATFORM_VERSION>(platform);
+  info.driver_version = query<CL_DRIVER_VERSION>(device);
+  const cl_device_type type = query<CL_DEVICE_TYPE>(device);
   info.type = type & CL_DEVICE_TYPE_GPU   ? DeviceType::kGpu
               : type & CL_DEVICE_TYPE_CPU ? DeviceType::kCpu
                                           : DeviceType::kOther;
-  info.compute_units = int(query<cl_uint>(device, CL_DEVICE_MAX_COMPUTE_UNITS));
-  info.global_memory = query<cl_ulong>(device, CL_DEVICE_GLOBAL_MEM_SIZE);
-  info.max_allocation = query<cl_ulong>(device, CL_DEVICE_MAX_MEM_ALLOC_SIZE);
-  info.local_memory = query<cl_ulong>(device, CL_DEVICE_LOCAL_MEM_SIZE);
-  info.max_group_size = query<std::size_t>(device, CL_DEVICE_MAX_WORK_GROUP_SIZE);
-  info.shares_host_memory = query<cl_bool>(device, CL_DEVICE_HOST_UNIFIED_MEMORY);
-  const std::string extensions = query_text(device, CL_DEVICE_EXTENSIONS);
+  info.compute_units = int(query<CL_DEVICE_MAX_COMPUTE_UNITS>(device));
+  info.global_memory = query<CL_DEVICE_GLOBAL_MEM_SIZE>(device);
+  info.max_allocation = query<CL_DEVICE_MAX_MEM_ALLOC_SIZE>(device);
+  info.local_memory = query<CL_DEVICE_LOCAL_MEM_SIZE>(device);
+  info.max_group_size = query<CL_DEVICE_MAX_WORK_GROUP_SIZE>(device);
+  info.shares_host_memory = query<CL_DEVICE_HOST_UNIFIED_MEMORY>(device);
+  const std::string extensions = query<CL_DEVICE_EXTENSIONS>(device);
   info.has_int64_atomics = has_extension(extensions, "cl_khr_int64_base_atomics") &&
                            has_extension(extensions, "cl_khr_int64_extended_atomics");
   info.has_fp64 = has_extension(extensions, "cl_khr_fp64");
@@ -85,27 +71,18 @@ std::vector<FoundDevice> find_devices() {
   static std::mutex mutex;
   const std::lock_guard lock(mutex);
   const bool has_pocl = give_pocl_a_cache().empty();
-  cl_uint num_platforms = 0;
-  const cl_int error = clGetPlatformIDs(0, nullptr, &num_platforms);
-  if (error == kPlatformNotFound || num_platforms == 0) return {};
-  check_cl(error, "clGetPlatformIDs");
-  std::vector<cl_platform_id> platforms(num_platforms);
-  GIGARAY_CL(clGetPlatformIDs(num_platforms, platforms.data(), nullptr));
+  std::vector<cl::Platform> platforms;
+  if (const cl_int error = cl::Platform::get(&platforms); error != kPlatformNotFound)
+    check_cl(error, "clGetPlatformIDs");
 
   std::vector<FoundDevice> found;
-  for (const auto platform : platforms) {
-    if (!has_pocl && query_text(platform, CL_PLATFORM_NAME) == kPocl) continue;
+  for (const cl::Platform& platform : platforms) {
+    if (!has_pocl && query<CL_PLATFORM_NAME>(platform) == kPocl) continue;
     // A platform whose driver is broken must not hide the others.
-    cl_uint num_devices = 0;
-    if (clGetDeviceIDs(platform, CL_DEVICE_TYPE_ALL, 0, nullptr, &num_devices) != CL_SUCCESS)
-      continue;
-    std::vector<cl_device_id> devices(num_devices);
-    if (clGetDeviceIDs(platform, CL_DEVICE_TYPE_ALL, num_devices, devices.data(), nullptr) !=
-        CL_SUCCESS)
-      continue;
-    for (const auto device : devices) {
-      if (query<cl_bool>(device, CL_DEVICE_AVAILABLE) &&
-          query<cl_bool>(device, CL_DEVICE_COMPILER_AVAILABLE))
+    std::vector<cl::Device> devices;
+    if (platform.getDevices(CL_DEVICE_TYPE_ALL, &devices) != CL_SUCCESS) continue;
+    for (const cl::Device& device : devices) {
+      if (query<CL_DEVICE_AVAILABLE>(device) && query<CL_DEVICE_COMPILER_AVAILABLE>(device))
         found.push_back({device, describe(platform, device, int(found.size()))});
     }
   }
@@ -165,83 +142,23 @@ FoundDevice select(const std::string& given) {
 
 }  // namespace
 
-std::string error_name(cl_int error) {
-#define GIGARAY_NAME(code) \
-  case code:               \
-    return #code " (" + std::to_string(code) + ")";
-  switch (error) {
-    GIGARAY_NAME(CL_SUCCESS)
-    GIGARAY_NAME(CL_DEVICE_NOT_FOUND)
-    GIGARAY_NAME(CL_DEVICE_NOT_AVAILABLE)
-    GIGARAY_NAME(CL_COMPILER_NOT_AVAILABLE)
-    GIGARAY_NAME(CL_MEM_OBJECT_ALLOCATION_FAILURE)
-    GIGARAY_NAME(CL_OUT_OF_RESOURCES)
-    GIGARAY_NAME(CL_OUT_OF_HOST_MEMORY)
-    GIGARAY_NAME(CL_PROFILING_INFO_NOT_AVAILABLE)
-    GIGARAY_NAME(CL_MEM_COPY_OVERLAP)
-    GIGARAY_NAME(CL_BUILD_PROGRAM_FAILURE)
-    GIGARAY_NAME(CL_MAP_FAILURE)
-    GIGARAY_NAME(CL_MISALIGNED_SUB_BUFFER_OFFSET)
-    GIGARAY_NAME(CL_EXEC_STATUS_ERROR_FOR_EVENTS_IN_WAIT_LIST)
-    GIGARAY_NAME(CL_INVALID_VALUE)
-    GIGARAY_NAME(CL_INVALID_DEVICE_TYPE)
-    GIGARAY_NAME(CL_INVALID_PLATFORM)
-    GIGARAY_NAME(CL_INVALID_DEVICE)
-    GIGARAY_NAME(CL_INVALID_CONTEXT)
-    GIGARAY_NAME(CL_INVALID_QUEUE_PROPERTIES)
-    GIGARAY_NAME(CL_INVALID_COMMAND_QUEUE)
-    GIGARAY_NAME(CL_INVALID_HOST_PTR)
-    GIGARAY_NAME(CL_INVALID_MEM_OBJECT)
-    GIGARAY_NAME(CL_INVALID_BINARY)
-    GIGARAY_NAME(CL_INVALID_BUILD_OPTIONS)
-    GIGARAY_NAME(CL_INVALID_PROGRAM)
-    GIGARAY_NAME(CL_INVALID_PROGRAM_EXECUTABLE)
-    GIGARAY_NAME(CL_INVALID_KERNEL_NAME)
-    GIGARAY_NAME(CL_INVALID_KERNEL_DEFINITION)
-    GIGARAY_NAME(CL_INVALID_KERNEL)
-    GIGARAY_NAME(CL_INVALID_ARG_INDEX)
-    GIGARAY_NAME(CL_INVALID_ARG_VALUE)
-    GIGARAY_NAME(CL_INVALID_ARG_SIZE)
-    GIGARAY_NAME(CL_INVALID_KERNEL_ARGS)
-    GIGARAY_NAME(CL_INVALID_WORK_DIMENSION)
-    GIGARAY_NAME(CL_INVALID_WORK_GROUP_SIZE)
-    GIGARAY_NAME(CL_INVALID_WORK_ITEM_SIZE)
-    GIGARAY_NAME(CL_INVALID_GLOBAL_OFFSET)
-    GIGARAY_NAME(CL_INVALID_EVENT_WAIT_LIST)
-    GIGARAY_NAME(CL_INVALID_EVENT)
-    GIGARAY_NAME(CL_INVALID_OPERATION)
-    GIGARAY_NAME(CL_INVALID_BUFFER_SIZE)
-    GIGARAY_NAME(CL_INVALID_GLOBAL_WORK_SIZE)
-    default:
-      return "error " + std::to_string(error);
-  }
-#undef GIGARAY_NAME
-}
-
-void check_cl(cl_int error, const std::string& what) {
-  if (error == CL_SUCCESS) return;
-  const bool memory = error == CL_MEM_OBJECT_ALLOCATION_FAILURE || error == CL_OUT_OF_HOST_MEMORY;
-  throw Error(memory ? ErrorCode::kOutOfMemory : ErrorCode::kDevice,
-              "OpenCL: " + what + " failed with " + error_name(error));
-}
-
 Device Device::open(const std::string& selection, Profiling profiling) {
   auto [id, info] = select(selection);
   Device device;
   device.info_ = std::move(info);
   device.id_ = id;
-  device.profiling_ = profiling == Profiling::kOn;
-  if (device.profiling_) device.log_ = std::make_shared<EventLog>();
+  if (profiling == Profiling::kOn) device.log_ = std::make_shared<EventLog>();
   cl_int error = CL_SUCCESS;
-  device.context_ = Context(clCreateContext(nullptr, 1, &id, nullptr, nullptr, &error));
+  device.context_ = cl::Context(id, nullptr, nullptr, nullptr, &error);
   check_cl(error, "clCreateContext on " + device.info_.name);
-  device.queue_ = Queue(clCreateCommandQueue(
-      device.context_.get(), id, device.profiling_ ? CL_QUEUE_PROFILING_ENABLE : 0, &error));
+  device.queue_ = cl::CommandQueue(
+      device.context_, id, device.log_ ? cl_command_queue_properties(CL_QUEUE_PROFILING_ENABLE) : 0,
+      &error);
   check_cl(error, "clCreateCommandQueue on " + device.info_.name);
   return device;
 }
 
-void Device::finish() const { GIGARAY_CL(clFinish(queue_.get())); }
+void Device::finish() const { GIGARAY_CL(queue_.finish()); }
 
 }  // namespace gigaray::opencl
 

@@ -7,8 +7,8 @@
 #include <string>
 
 #include "gigaray/device.h"
+#include "opencl/errors.h"
 #include "opencl/event_log.h"
-#include "opencl/handle.h"
 
 namespace gigaray::opencl {
 
@@ -26,37 +26,35 @@ enum class Profiling : bool { kOff, kOn };
 /// on the same hardware, may be used in parallel.
 class Device {
  public:
-  /// selection: see select_device(). Profiling makes Kernel::run_timed() and log() possible and
-  /// costs a little time for every command. Throws Error(kDevice).
+  /// selection: see select_device(). Profiling makes log() possible and costs a little
+  /// time for every command. Throws Error(kDevice).
   static Device open(const std::string& selection = "", Profiling profiling = Profiling::kOff);
 
   Device(Device&&) = default;
   Device& operator=(Device&&) = default;
 
   const DeviceInfo& info() const { return info_; }
-  cl_device_id id() const { return id_; }
-  const Context& context() const { return context_; }
-  const Queue& queue() const { return queue_; }
-  bool profiling() const { return profiling_; }
+  const cl::Device& id() const { return id_; }
+  const cl::Context& context() const { return context_; }
+  const cl::CommandQueue& queue() const { return queue_; }
   /// Where commands are noted; null without profiling.
   const std::shared_ptr<EventLog>& log() const { return log_; }
 
   void finish() const;  ///< Waits until all commands are done.
 
   /// Programs by key, see program_cache.h.
-  std::map<std::string, Program>& programs() { return programs_; }
+  std::map<std::string, cl::Program>& programs() { return programs_; }
   ProgramCounters& counters() { return counters_; }
 
  private:
   Device() = default;
 
   DeviceInfo info_;
-  cl_device_id id_ = nullptr;
-  bool profiling_ = false;
-  Context context_;
-  Queue queue_;
+  cl::Device id_;
+  cl::Context context_;
+  cl::CommandQueue queue_;
   std::shared_ptr<EventLog> log_;
-  std::map<std::string, Program> programs_;
+  std::map<std::string, cl::Program> programs_;
   ProgramCounters counters_;
 };
 

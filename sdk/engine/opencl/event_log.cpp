@@ -7,10 +7,8 @@ namespace gigaray::opencl {
 void EventLog::collect() {
   for (const auto& [stage, event] : pending_) {
     cl_ulong begin = 0, end = 0;
-    GIGARAY_CL(clGetEventProfilingInfo(event.get(), CL_PROFILING_COMMAND_START, sizeof begin,
-                                       &begin, nullptr));
-    GIGARAY_CL(
-        clGetEventProfilingInfo(event.get(), CL_PROFILING_COMMAND_END, sizeof end, &end, nullptr));
+    GIGARAY_CL(event.getProfilingInfo(CL_PROFILING_COMMAND_START, &begin));
+    GIGARAY_CL(event.getProfilingInfo(CL_PROFILING_COMMAND_END, &end));
     *stage += double(end - begin) * 1e-9;
   }
   pending_.clear();

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "opencl/handle.h"
+#include "opencl/errors.h"
 
 namespace gigaray::opencl {
 
@@ -17,7 +17,7 @@ class EventLog {
  public:
   /// Commands that are added from now on belong to this stage.
   void begin_stage(const std::string& stage) { stage_ = &seconds_[stage]; }
-  void add(Event event) {
+  void add(cl::Event event) {
     if (stage_) pending_.emplace_back(stage_, std::move(event));
   }
   /// All commands so far are finished.
@@ -27,7 +27,7 @@ class EventLog {
  private:
   std::map<std::string, double> seconds_;
   double* stage_ = nullptr;
-  std::vector<std::pair<double*, Event>> pending_;
+  std::vector<std::pair<double*, cl::Event>> pending_;
 };
 
 }  // namespace gigaray::opencl

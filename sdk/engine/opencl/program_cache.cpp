@@ -7,6 +7,7 @@
 #include <cstring>
 #include <filesystem>
 #include <optional>
+#include <vector>
 
 #include "opencl/cache_folder.h"
 #include "opencl/content_hash.h"
@@ -74,68 +75,53 @@ void save_binary(const std::filesystem::path& path, const Hash& key, const std::
 }
 
 /// The build log, at most its first lines: a kernel's errors repeat themselves.
-std::string build_log(cl_program program, cl_device_id device) {
-  std::size_t size = 0;
-  clGetProgramBuildInfo(program, device, CL_PROGRAM_BUILD_LOG, 0, nullptr, &size);
-  std::string log(size, '\0');
-  clGetProgramBuildInfo(program, device, CL_PROGRAM_BUILD_LOG, size, log.data(), nullptr);
+std::string build_log(const cl::Program& program, const cl::Device& device) {
+  const std::string log = program.getBuildInfo<CL_PROGRAM_BUILD_LOG>(device);
   constexpr std::size_t kLongest = 2000;
-  std::string text(trimmed(std::string_view(log).substr(0, log.find('\0'))));
+  std::string text(trimmed(log.c_str()));
   if (text.size() > kLongest) text = text.substr(0, text.rfind('\n', kLongest)) + "\n…";
   return text;
 }
 
-Program compile(const Device& device, const std::string& source, const std::string& options,
-                std::span<const SourcePart> parts) {
-  const char* text = source.data();
-  const std::size_t size = source.size();
+cl::Program compile(const Device& device, const std::string& source, const std::string& options,
+                    std::span<const SourcePart> parts) {
   cl_int error = CL_SUCCESS;
-  Program program(clCreateProgramWithSource(device.context().get(), 1, &text, &size, &error));
+  cl::Program program(device.context(), source, false, &error);
   check_cl(error, "clCreateProgramWithSource");
-  const cl_device_id id = device.id();
-  error = clBuildProgram(program.get(), 1, &id, options.c_str(), nullptr, nullptr);
+  error = program.build(device.id(), options.c_str());
   if (error != CL_SUCCESS) {
     const std::string name(parts.empty() ? "program" : parts.back().name);
     throw Error(ErrorCode::kDevice, "kernel " + name + " does not build on " + device.info().name +
                                         " with '" + options + "' (" + error_name(error) +
-                                        "): " + build_log(program.get(), id));
+                                        "): " + build_log(program, device.id()));
   }
   return program;
 }
 
 /// Empty when the driver refuses the binary.
-Program program_from(const Device& device, const std::string& binary, const std::string& options) {
-  const auto* bytes = reinterpret_cast<const unsigned char*>(binary.data());
-  const std::size_t size = binary.size();
-  const cl_device_id id = device.id();
-  cl_int status = CL_SUCCESS;
+cl::Program program_from(const Device& device, const std::string& binary,
+                         const std::string& options) {
+  std::vector<cl_int> status;
   cl_int error = CL_SUCCESS;
-  Program program(
-      clCreateProgramWithBinary(device.context().get(), 1, &id, &size, &bytes, &status, &error));
-  if (error != CL_SUCCESS || status != CL_SUCCESS) return {};
-  if (clBuildProgram(program.get(), 1, &id, options.c_str(), nullptr, nullptr) != CL_SUCCESS)
-    return {};
+  cl::Program program(device.context(), {device.id()}, {{binary.begin(), binary.end()}}, &status,
+                      &error);
+  if (error != CL_SUCCESS || status != std::vector<cl_int>{CL_SUCCESS}) return {};
+  if (program.build(device.id(), options.c_str()) != CL_SUCCESS) return {};
   return program;
 }
 
 /// Empty when the driver gives none.
-std::string binary_of(const Program& program) {
-  std::size_t size = 0;
-  if (clGetProgramInfo(program.get(), CL_PROGRAM_BINARY_SIZES, sizeof size, &size, nullptr) !=
-      CL_SUCCESS)
-    return {};
-  std::string binary(size, '\0');
-  auto* bytes = reinterpret_cast<unsigned char*>(binary.data());
-  if (clGetProgramInfo(program.get(), CL_PROGRAM_BINARIES, sizeof bytes, &bytes, nullptr) !=
-      CL_SUCCESS)
-    return {};
-  return binary;
+std::string binary_of(const cl::Program& program) {
+  cl_int error = CL_SUCCESS;
+  const auto binaries = program.getInfo<CL_PROGRAM_BINARIES>(&error);
+  if (error != CL_SUCCESS || binaries.empty()) return {};
+  return {binaries.front().begin(), binaries.front().end()};
 }
 
 }  // namespace
 
-Program build_program(Device& device, std::span<const SourcePart> parts,
-                      const std::string& options) {
+cl::Program build_program(Device& device, std::span<const SourcePart> parts,
+                          const std::string& options) {
   const std::string all_options = options.empty() ? "-cl-std=CL1.2" : "-cl-std=CL1.2 " + options;
   const std::string source = join(parts);
   const Hash key = program_key(device.info(), source, all_options);
@@ -147,12 +133,12 @@ Program build_program(Device& device, std::span<const SourcePart> parts,
 
   const auto folder = cache_folder();
   const auto path = folder ? *folder / kProgramFolder / (name + ".bin") : std::filesystem::path();
-  Program program;
+  cl::Program program;
   if (folder) {
     if (const auto binary = load_binary(path, key))
       program = program_from(device, *binary, all_options);
   }
-  if (program) {
+  if (program()) {
     ++device.counters().loaded;
   } else {
     program = compile(device, source, all_options, parts);

@@ -25,7 +25,7 @@ std::string_view kernel_source(std::string_view file_name);
 /// are the same; compiled otherwise. A damaged cache file is compiled anew and replaced; a cache
 /// folder that can't be written is done without. Throws Error(kDevice) with the compiler's messages
 /// when the source doesn't compile.
-Program build_program(Device& device, std::span<const SourcePart> parts,
-                      const std::string& options = "");
+cl::Program build_program(Device& device, std::span<const SourcePart> parts,
+                          const std::string& options = "");
 
 }  // namespace gigaray::opencl
