@@ -313,6 +313,7 @@ void Pipeline::finish() {
   }
   StripMap<float> disparity(finest.width, finest.rows()), confidence = disparity;
   StripMap<std::int8_t> decided(finest.width, finest.rows());
+  const FinishSteps finish_steps(workspace_);
   const auto bytes_of = [&](auto& map) {
     return std::as_writable_bytes(std::span(map.padded_row(0), map.pitch() * finest.rows().size()));
   };

@@ -162,6 +162,7 @@ class Pipeline {
   std::array<std::shared_ptr<Memory>, 4> strips_;
   std::shared_ptr<Memory> tuple_memory_;
   std::vector<RayTuple> fresh_tuples_;  ///< being read
+  const FinishSteps finish_steps_{workspace_};
 };
 
 }  // namespace gigaray

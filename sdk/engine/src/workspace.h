@@ -278,4 +278,22 @@ class Workspace {
                          const ViewMaps& maps) = 0;
 };
 
+/// Waits for all steps at the end of a scope that they may be left early from, before memory of the
+/// host that they use goes.
+class FinishSteps {
+ public:
+  explicit FinishSteps(Workspace& workspace) : workspace_(workspace) {}
+  ~FinishSteps() {
+    try {
+      workspace_.finish();
+    } catch (...) {  // the scope is left by the error that matters
+    }
+  }
+  FinishSteps(const FinishSteps&) = delete;
+  FinishSteps& operator=(const FinishSteps&) = delete;
+
+ private:
+  Workspace& workspace_;
+};
+
 }  // namespace gigaray
