@@ -99,6 +99,10 @@ typedef struct {
   int count;
 } HypothesisReals;
 
+// a / b to the last bit, as the host has it: a GPU's own division may be off by two. Where there are
+// doubles, rounding twice changes nothing.
+static inline float quotient(float a, float b) { return (float)((real_t)a / (real_t)b); }
+
 static inline real_t hypothesis_place(const HypothesisReals hypotheses, float h) {
   return clamp(((real_t)h - hypotheses.min) / hypotheses.step, (real_t)0,
                (real_t)(hypotheses.count - 1));

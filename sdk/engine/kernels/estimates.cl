@@ -52,7 +52,7 @@ __kernel void close_cracks(const StripParams strip, const int height, const int 
     const size_t first = (long)pixel - before * step, last = (long)pixel + after * step;
     const float low = disparity[first], high = disparity[last];
     if (!(fabs(high - low) <= apart)) continue;
-    h = low + (high - low) * (float)before / (float)(holes + 1);
+    h = low + quotient((high - low) * (float)before, (float)(holes + 1));
     c = fmin(confidence[first], confidence[last]);
     estimates[active_index(strip, v, begin, active, active_count, u)] = packed_estimate(h, c);
   }
@@ -60,7 +60,7 @@ __kernel void close_cracks(const StripParams strip, const int height, const int 
   closed_confidence[pixel] = c;
 }
 
-// Winners of a strip into the maps.
+// Winners of a strip into the maps. min_relief: below 0, there is no `best`.
 __kernel void take_winners(const StripParams strip, const HypothesisReals hypotheses,
                            const int is_last_level, const float min_relief, const int has_edges,
                            __global const uchar* todo, __global const ushort2* bounds,
@@ -73,7 +73,7 @@ __kernel void take_winners(const StripParams strip, const HypothesisReals hypoth
   if (!todo[pixel]) return;
   float h = winners[at], c = contrast[at];
   // All hypotheses score alike: no information.
-  if (min_relief > 0.0f && !(c > min_relief * best[at])) c = 0.0f;
+  if (min_relief >= 0.0f && !(c > min_relief * best[at])) c = 0.0f;
   // Too few views saw it under any hypothesis: on the last level the farther bound has to do.
   if (isnan(h) && is_last_level) h = hypothesis_value(hypotheses, bounds[pixel].x);
   disparity[pixel] = h;

@@ -124,7 +124,7 @@ void DeviceWorkspace::take_winners(RowRange rows, bool is_last_level, const Map<
                                    const Map<float>& edges, const Map<float>& disparity,
                                    const Map<float>& confidence) {
   run_with_reals("take_winners", rows, int(is_last_level),
-                 best ? setup_.options.winner.min_relief : 0.0f, int(bool(edges)), buffer_of(todo),
+                 best ? setup_.options.winner.min_relief : -1.0f, int(bool(edges)), buffer_of(todo),
                  buffer_of(bounds), buffer_of(winners), buffer_of(contrast), buffer_of(best),
                  buffer_of(edges), buffer_of(disparity), buffer_of(confidence));
 }

@@ -152,7 +152,7 @@ class Workspace {
 
   // ---- What to do -------------------------------------------------------------------------------
   virtual void edge_confidence(int ref, RowRange rows, const Map<float>& strip) = 0;
-  /// mask: 1 where the strip is above the threshold.
+  /// mask: a strip of the same rows, 1 where the confidence is above the threshold.
   virtual void edge_mask(RowRange rows, const Map<float>& strip, float threshold,
                          const Map<std::uint8_t>& mask) = 0;
   /// Least or greatest of a pixel and its four neighbours; outside the picture nothing counts. The
