@@ -31,7 +31,7 @@ MemoryPlan plan(const LightField& light_field, double mib, const std::string& pr
   DepthOptions options = preset_options(preset);
   options.memory_bytes = mib * kMiB;
   options.work_folder = "work";
-  return plan_memory(light_field, options, kHypotheses);
+  return plan_memory(light_field, options, kHypotheses, DeviceLimits{});
 }
 
 TEST(LevelShapes, HalveAndRoundUpUntilTenPixels) {
@@ -108,7 +108,8 @@ TEST(MemoryPlan, TheHaloHoldsEveryWindow) {
     options.winner.median_radius = 8;
     options.edge.radius = 16;
     const LightField light_field = described(row_of_views(9), 200, 200);
-    for (const LevelPlan& level : plan_memory(light_field, options, kHypotheses).levels) {
+    for (const LevelPlan& level :
+         plan_memory(light_field, options, kHypotheses, DeviceLimits{}).levels) {
       EXPECT_GE(level.halo, options.winner.median_radius);
       EXPECT_GE(level.halo, options.edge.radius + 2)
           << "edges of the rows that the opening looks at";
@@ -123,21 +124,26 @@ TEST(MemoryPlan, FewerViewsThatKeepDepthTakeLess) {
   const LightField light_field = described(grid_of_views(9, 9), 512, 512);
   DepthOptions options = paper_options();
   options.memory_bytes = 64e9;
-  const double all = plan_memory(light_field, options, kHypotheses).forecast.memory_all_bytes;
+  const double all =
+      plan_memory(light_field, options, kHypotheses, DeviceLimits{}).forecast.memory_all_bytes;
   options.views = {40};
-  EXPECT_LT(plan_memory(light_field, options, kHypotheses).forecast.memory_all_bytes, all);
+  EXPECT_LT(
+      plan_memory(light_field, options, kHypotheses, DeviceLimits{}).forecast.memory_all_bytes,
+      all);
 }
 
 TEST(MemoryPlan, WhatTheCallerTakesCounts) {
   const LightField light_field = described(row_of_views(20), 640, 480);
   DepthOptions options = auto_options();
   options.memory_bytes = 64e9;
-  const double alone = plan_memory(light_field, options, kHypotheses).forecast.memory_bytes;
+  const double alone =
+      plan_memory(light_field, options, kHypotheses, DeviceLimits{}).forecast.memory_bytes;
   options.memory_beside = 100 * kMiB;
-  EXPECT_DOUBLE_EQ(plan_memory(light_field, options, kHypotheses).forecast.memory_bytes,
-                   alone + 100 * kMiB);
+  EXPECT_DOUBLE_EQ(
+      plan_memory(light_field, options, kHypotheses, DeviceLimits{}).forecast.memory_bytes,
+      alone + 100 * kMiB);
   options.memory_bytes = alone + 50 * kMiB;
-  EXPECT_LE(plan_memory(light_field, options, kHypotheses).forecast.memory_bytes,
+  EXPECT_LE(plan_memory(light_field, options, kHypotheses, DeviceLimits{}).forecast.memory_bytes,
             options.memory_bytes);
 }
 
@@ -179,12 +185,49 @@ TEST(MemoryPlan, UnstructuredViewsThatReachFarSayWhatHelps) {
   options.work_folder = "work";
   const HypothesisRange hypotheses{0, 1, 64};
   LightField near = column_of_cameras(100, 0.0005);
-  EXPECT_LE(plan_memory(near, options, hypotheses).forecast.bands, 16);
+  EXPECT_LE(plan_memory(near, options, hypotheses, DeviceLimits{}).forecast.bands, 16);
   LightField far = column_of_cameras(100, 0.002);
   expect_error(ErrorCode::kOutOfMemory, {"--partners", "--max-size"},
-               [&] { plan_memory(far, options, hypotheses); });
+               [&] { plan_memory(far, options, hypotheses, DeviceLimits{}); });
   far.most_partners = 20;
-  EXPECT_NO_THROW(plan_memory(far, options, hypotheses));
+  EXPECT_NO_THROW(plan_memory(far, options, hypotheses, DeviceLimits{}));
+}
+
+TEST(MemoryPlan, FilesOnlyWhereMemoryDoesNotHoldTheStores) {
+  // 4K, 50 views: one buffer of the device holds few rows of them, memory holds all.
+  const LightField light_field = described(row_of_views(50), 3840, 2160);
+  DepthOptions options = preset_options("auto");
+  options.memory_bytes = 1e12;
+  const MemoryPlan small_buffers =
+      plan_memory(light_field, options, kHypotheses, {0, 1800 * kMiB, true});
+  EXPECT_GT(small_buffers.forecast.bands, 4);
+  EXPECT_EQ(small_buffers.forecast.disk_bytes, 0);
+  const MemoryPlan large_buffers = plan_memory(light_field, options, kHypotheses, {0, 1e12, true});
+  EXPECT_EQ(large_buffers.forecast.bands, 1);
+  EXPECT_EQ(large_buffers.place, Place::kDevice);
+}
+
+TEST(MemoryPlan, ADeviceWithMemoryOfItsOwnIsPlannedByIt) {
+  const LightField light_field = described(grid_of_views(9, 9), 1024, 1024);
+  DepthOptions options = preset_options("auto");
+  options.memory_bytes = 64e9;
+  const double gib = 1024 * kMiB;
+  // All of it fits; then the stores stay with the host; then little of a band does.
+  const MemoryPlan large =
+      plan_memory(light_field, options, kHypotheses, {80 * gib, 20 * gib, false});
+  EXPECT_EQ(large.place, Place::kDevice);
+  EXPECT_EQ(large.forecast.bands, 1);
+  const MemoryPlan middle = plan_memory(light_field, options, kHypotheses, {3 * gib, gib, false});
+  EXPECT_EQ(middle.place, Place::kHost);
+  EXPECT_GT(middle.forecast.bands, 1);
+  EXPECT_GT(middle.forecast.memory_bytes, large.forecast.memory_bytes) << "of the host";
+  options.memory_bytes = 1.3e9;
+  EXPECT_EQ(plan_memory(light_field, options, kHypotheses, {3 * gib, gib, false}).place,
+            Place::kFile);
+  options.memory_bytes = 64e9;
+  expect_error(ErrorCode::kOutOfMemory, {"its memory"}, [&] {
+    plan_memory(light_field, options, kHypotheses, {0.3 * gib, 0.1 * gib, false});
+  });
 }
 
 }  // namespace

@@ -103,7 +103,7 @@ struct PlannedRun {
     const HypothesisRange hypotheses{options.disparity->min, options.disparity->max,
                                      options.hypotheses};
     options.memory_bytes = 4e9;
-    MemoryPlan plan = plan_memory(light_field, options, hypotheses);
+    MemoryPlan plan = plan_memory(light_field, options, hypotheses, DeviceLimits{});
     for (LevelPlan& level : plan.levels) {
       // Scan-lines work on whole blocks of rows.
       const bool blocks = options.support.scanline && level.shape.level == 0;

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
 
 #include "gigaray/memory_limit.h"
 #include "gigaray/parallel.h"
@@ -21,29 +23,36 @@ constexpr double kProcessBytes = 175 * kMiB;
 constexpr double kCompilerBytes = 175 * kMiB, kCompilerHeap = 35 * kMiB;
 /// Tuples are kept in memory with the stores: so many per pixel of a picture, as a rule.
 constexpr double kTuplesPerPixel = 2;
-/// Most bytes of one device buffer that every OpenCL driver we know grants.
-constexpr double kLargestBuffer = 1800 * kMiB;
+/// Share of a device's own memory that a run may take: the driver and a display want some.
+constexpr double kDeviceShare = 0.9;
 constexpr int kSmallestLevel = 10;  // px
 /// Most for the scores of a strip, where its least number of rows takes less.
 constexpr double kLargestVolume = 1024 * kMiB;
 
 struct LevelCost {
-  double stores = 0;      // bytes of everything that is kept of the level
-  double band_row = 0;    // bytes of one row of a band, on the device and beside it
+  double stores = 0;    // bytes of everything that is kept of the level
+  double band_row = 0;  // bytes of one row of a band, on the device and beside it
+  double reached_row =
+      0;                  // bytes of one row of estimates that rays of a band reach, brought for it
   double row_floats = 0;  // bytes of one row in the band buffer
+  double largest_store = 0;
 };
 
 /// n: views in a band. Bands of samplers whose rays go each their own way are there twice, the
 /// second time with the channels of a pixel padded to 4 or 8.
 LevelCost cost_of(const LevelShape& shape, const LightField& light_field,
-                  const DepthOptions& options, double active, double n, bool in_files) {
+                  const DepthOptions& options, double active, double n, bool staged) {
   const double all = light_field.num_views();
   const double pixels = double(shape.width) * shape.height;
   const double colour_bytes =
       shape.level == 0 ? 3.0 * light_field.pixels->bit_depth() / 8 : 3.0 * sizeof(float);
-  const double kept = sizeof(PackedEstimate) + 1 + (shape.level > 0 ? sizeof(Search) : 0);
+  const bool guarded = options.propagation.finished_lead > 0 && active > 1;
+  const double kept = sizeof(PackedEstimate) + (guarded ? sizeof(float) : 0) + 1 +
+                      (shape.level > 0 ? sizeof(Search) : 0);
+  const double kStagedBytes = sizeof(PackedEstimate) + (guarded ? sizeof(float) : 0);
   LevelCost cost;
   cost.stores = pixels * (all * colour_bytes + active * kept);
+  cost.largest_store = pixels * std::max(all * colour_bytes, active * sizeof(Search));
   if (shape.level == 0 && light_field.pixels->has_mask()) cost.stores += pixels * all;
   const bool gradient = options.score.gradient;
   const double planes = n * map_pitch(shape.width) * sizeof(float);
@@ -52,9 +61,11 @@ LevelCost cost_of(const LevelShape& shape, const LightField& light_field,
       light_field.kind == LightFieldKind::kUnstructured ? planes * (gradient ? 8 : 4) : 0;
   cost.row_floats = std::max(plane_bytes, tap_bytes);
   cost.band_row = plane_bytes + tap_bytes + n * shape.width * std::max(colour_bytes, 3.0);
-  // Rows of the stores that are open beside the band: pixels, those of the next level, estimates.
-  if (in_files)
-    cost.band_row += shape.width * (n * (colour_bytes + 3.0) + active * sizeof(PackedEstimate));
+  // Rows that are brought beside the band: pixels, those of the next level; estimates and bars.
+  if (staged) {
+    cost.band_row += shape.width * n * (colour_bytes + 3.0);
+    cost.reached_row = shape.width * active * kStagedBytes;
+  }
   return cost;
 }
 
@@ -80,9 +91,10 @@ double volume_row_bytes(int width, const HypothesisRange& hypotheses) {
 class Planner {
  public:
   Planner(const LightField& light_field, const DepthOptions& options,
-          const HypothesisRange& hypotheses)
+          const HypothesisRange& hypotheses, const DeviceLimits& device)
       : light_field_(light_field),
         options_(options),
+        device_(device),
         hypotheses_(hypotheses),
         sampler_(make_sampler(light_field)),
         shapes_(level_shapes(light_field.width, light_field.height,
@@ -104,26 +116,33 @@ class Planner {
   /// Bytes for the scores of a strip. All rows if they fit into a part of the memory: else a strip
   /// is scored again for the second look.
   double usual_volume(double limit) const {
-    return std::min(std::clamp(limit / 12, least_volume_, std::max(kLargestVolume, least_volume_)),
+    const double memory = std::min(limit, device_memory());
+    const double most = std::min(kLargestVolume, device_.largest_buffer);
+    return std::min(std::clamp(memory / 12, least_volume_, std::max(most, least_volume_)),
                     all_rows_);
   }
   double least_volume() const { return std::min(least_volume_, all_rows_); }
 
   /// Whatever the bands are.
   double fixed_bytes(double volume) const {
-    const SupportOptions& support = options_.support;
-    const double copies = 1 + (support.radius > 0) + support.scanline;
-    return kProcessBytes + compiler_bytes() + options_.memory_beside + copies * volume +
-           map_bytes();
+    return kProcessBytes + compiler_bytes() + options_.memory_beside + map_bytes() +
+           (device_.shares_host_memory ? score_bytes(volume) : 0);
   }
 
-  double map_bytes() const {
+  double score_bytes(double volume) const {
     const SupportOptions& support = options_.support;
-    // Maps of one view: todo, bounds (twice with support), disparity, confidence, median, radiance,
-    // slopes, means along rays (5 channels).
-    const double pitch = map_pitch(light_field_.width);
-    const double view_maps = pitch * light_field_.height *
-                             (27 + (support.slanted ? 24 : 0) + (options_.score.ray_mean ? 24 : 0));
+    return (1 + (support.radius > 0) + support.scanline) * volume;
+  }
+
+  /// Maps of one view: what is to do and its bounds (twice with support), disparity, confidence,
+  /// median, radiance, scratch; slopes and what lies beside jumps; means along rays (5 channels).
+  double view_map_bytes() const {
+    const SupportOptions& support = options_.support;
+    return double(map_pitch(light_field_.width)) * light_field_.height *
+           (36 + (support.slanted ? 16 : 0) + (options_.score.ray_mean ? 20 : 0));
+  }
+  double map_bytes() const {
+    const double view_maps = device_.shares_host_memory ? view_map_bytes() : 0;
     return std::max(view_maps, std::min(4, num_threads()) * decoder_bytes());
   }
 
@@ -135,34 +154,46 @@ class Planner {
     return kCompilerBytes - kCompilerHeap + std::max(0.0, kCompilerHeap - map_bytes());
   }
 
-  std::optional<MemoryPlan> plan(double limit, double volume, bool in_files) const {
+  /// Empty: it doesn't fit.
+  std::optional<MemoryPlan> plan(double limit, double volume, Place place) const {
     MemoryPlan result;
-    const double stores = in_files ? 0 : store_bytes(), fixed = fixed_bytes(volume);
+    result.place = place;
+    const bool in_files = place == Place::kFile, staged = place != Place::kDevice;
+    const double stores = in_files ? 0 : store_bytes();
+    const double on_host = device_.shares_host_memory || staged ? stores : 0;
+    const double fixed = fixed_bytes(volume);
+    if (!staged && largest_store() > device_.largest_buffer) return std::nullopt;
+    // A device with memory of its own holds bands, scores and maps there; the host the rest.
+    double room = limit - fixed - on_host;
+    if (!device_.shares_host_memory) {
+      if (room < 0) return std::nullopt;
+      room = device_memory() - score_bytes(volume) - view_map_bytes() - (stores - on_host);
+    }
     double peak_band = 0;
     for (const LevelShape& shape : shapes_) {
       const StripNeeds needs = strip_needs(options_.support, shape.level);
       LevelPlan level{shape, 0, halo(shape), 0};
       const int held = int(volume / volume_row_bytes(shape.width, hypotheses_)) - needs.halo;
       level.strip_rows = std::max(held / needs.multiple, 1) * needs.multiple;
-      const LevelCost cost = cost_of(shape, light_field_, options_, active_, band_views_, in_files);
-      const double rows = std::min((limit - fixed - stores) / cost.band_row,
-                                   std::floor(kLargestBuffer / cost.row_floats));
+      const LevelCost cost = cost_of(shape, light_field_, options_, active_, band_views_, staged);
       level.band_rows = shape.height;
-      while (loaded_rows(shape, level.band_rows) > rows) {
+      while (band_bytes(shape, cost, level.band_rows) > room ||
+             loaded_rows(shape, level.band_rows) * cost.row_floats > device_.largest_buffer) {
         // Halving keeps the number of bands, and with it the halo rows, small.
         const int fewer = level.band_rows > 16 ? (level.band_rows + 1) / 2 : level.band_rows - 1;
         const int whole = (fewer + needs.multiple - 1) / needs.multiple * needs.multiple;
         if (whole >= level.band_rows || whole < 1) return std::nullopt;
         level.band_rows = whole;
       }
-      peak_band = std::max(peak_band, loaded_rows(shape, level.band_rows) * cost.band_row);
+      peak_band = std::max(peak_band, band_bytes(shape, cost, level.band_rows));
       result.levels.push_back(level);
     }
-    result.forecast.memory_bytes = fixed + peak_band + stores;
+    const double bands_on_host = device_.shares_host_memory ? peak_band : 0;
+    result.forecast.memory_bytes = fixed + bands_on_host + on_host;
     result.compiler_bytes = compiler_bytes();
     // Pictures that were kept from the first look (kept_pictures.h) may take a third of it.
     const double free_for_decoding =
-        2.0 / 3 * (fixed + peak_band - kProcessBytes - options_.memory_beside);
+        2.0 / 3 * (fixed + bands_on_host - kProcessBytes - options_.memory_beside);
     result.decoders = int(std::clamp(free_for_decoding / decoder_bytes(), 1.0, 1024.0));
     result.forecast.disk_bytes = in_files ? store_bytes() : 0;
     const int first = result.levels.front().band_rows;
@@ -176,7 +207,7 @@ class Planner {
     for (const LevelShape& shape : shapes_) {
       const LevelCost cost = cost_of(shape, light_field_, options_, active_, band_views_, true);
       const int rows = std::min(strip_needs(options_.support, shape.level).multiple, shape.height);
-      peak_band = std::max(peak_band, loaded_rows(shape, rows) * cost.band_row);
+      peak_band = std::max(peak_band, band_bytes(shape, cost, rows));
     }
     return fixed_bytes(least_volume()) + peak_band;
   }
@@ -190,6 +221,18 @@ class Planner {
   }
 
  private:
+  double device_memory() const {
+    return device_.shares_host_memory ? std::numeric_limits<double>::infinity()
+                                      : kDeviceShare * device_.memory;
+  }
+  double largest_store() const {
+    double largest = 0;
+    for (const LevelShape& shape : shapes_)
+      largest = std::max(
+          largest,
+          cost_of(shape, light_field_, options_, active_, band_views_, false).largest_store);
+    return largest;
+  }
   double store_bytes() const {
     double stores = 0;
     for (const LevelShape& shape : shapes_)
@@ -202,8 +245,16 @@ class Planner {
     return 3 + std::max({options_.edge.radius + 2, needs.halo / 2, options_.winner.median_radius,
                          options_.support.slanted ? kSlopeReach : 0, 3});
   }
+  double band_bytes(const LevelShape& shape, const LevelCost& cost, int band_rows) const {
+    return loaded_rows(shape, band_rows) * cost.band_row +
+           (cost.reached_row > 0 ? reached_rows(shape, band_rows, 0) * cost.reached_row : 0);
+  }
   /// Most rows in memory for a band of so many rows.
   int loaded_rows(const LevelShape& shape, int band_rows) const {
+    return reached_rows(shape, band_rows, halo(shape));
+  }
+  /// Most rows that rays of a band and `around` rows on both sides reach.
+  int reached_rows(const LevelShape& shape, int band_rows, int around) const {
     // Of many bands some are looked at; neighbours need much the same.
     constexpr int kMostBands = 16;
     const int bands = (shape.height + band_rows - 1) / band_rows;
@@ -215,7 +266,7 @@ class Planner {
           for (const int ref : refs_)
             for (int begin = 0; begin < shape.height; begin += stride) {
               const RowRange band{begin, std::min(begin + band_rows, shape.height)};
-              const RowRange own = grown(band, halo(shape), shape.height);
+              const RowRange own = grown(band, around, shape.height);
               most = std::max(most, level.rows_needed(ref, own, hypotheses_, shape.height).size());
             }
           return most;
@@ -225,6 +276,7 @@ class Planner {
 
   const LightField& light_field_;
   const DepthOptions& options_;
+  const DeviceLimits device_;
   const HypothesisRange hypotheses_;
   const AnySampler sampler_;
   const std::vector<LevelShape> shapes_;
@@ -248,34 +300,41 @@ std::vector<LevelShape> level_shapes(int width, int height, bool fine_to_coarse)
 }
 
 double least_memory_limit(const LightField& light_field, const DepthOptions& options,
-                          const HypothesisRange& hypotheses) {
-  return Planner(light_field, options, hypotheses).least_limit();
+                          const HypothesisRange& hypotheses, const DeviceLimits& device) {
+  return Planner(light_field, options, hypotheses, device).least_limit();
 }
 
 MemoryPlan plan_memory(const LightField& light_field, const DepthOptions& options,
-                       const HypothesisRange& hypotheses) {
+                       const HypothesisRange& hypotheses, const DeviceLimits& device) {
   const double limit = options.memory_bytes > 0 ? options.memory_bytes : default_memory_limit();
-  const Planner planner(light_field, options, hypotheses);
+  const Planner planner(light_field, options, hypotheses, device);
   const double usual = planner.usual_volume(limit);
 
-  // In memory if that leaves bands of a quarter of the picture or more; else rows go to files.
-  auto in_memory = planner.plan(limit, usual, false);
-  auto in_files = planner.plan(limit, usual, true);
-  if (!in_memory && !in_files) in_files = planner.plan(limit, planner.least_volume(), true);
+  // In files only where memory does not hold the stores, or leaves so little that a view would be
+  // walked in many more bands.
+  constexpr int kFewBands = 4, kManyMore = 4;
+  auto in_files = planner.plan(limit, usual, Place::kFile);
+  std::optional<MemoryPlan> in_memory;
+  for (const Place place : {Place::kDevice, Place::kHost}) {
+    in_memory = planner.plan(limit, usual, place);
+    if (in_memory) break;
+  }
+  if (!in_memory && !in_files) in_files = planner.plan(limit, planner.least_volume(), Place::kFile);
   if (!in_memory && !in_files && planner.least_limit() <= limit)
     throw Error(ErrorCode::kOutOfMemory,
                 "the rays of one row reach so much of " + std::to_string(light_field.num_views()) +
-                    " views that it doesn't fit into one buffer of a device; compare fewer views "
-                    "(--partners) or smaller pictures (--max-size)");
+                    " views that it doesn't fit into one buffer of the device, or into its "
+                    "memory; compare fewer views (--partners) or smaller pictures (--max-size)");
   if (!in_memory && !in_files)
     throw Error(ErrorCode::kOutOfMemory,
                 "memory of " + std::to_string(int(limit / kMiB)) +
                     " MiB is too little for one row of all " +
                     std::to_string(light_field.num_views()) + " views; give it at least " +
                     std::to_string(int(std::ceil(planner.least_limit() / kMiB))) + " MiB");
-  const bool keep = in_memory && (in_memory->forecast.bands <= 4 || !in_files);
+  const bool keep =
+      in_memory && (!in_files || in_memory->forecast.bands <=
+                                     std::max(kFewBands, kManyMore * in_files->forecast.bands));
   MemoryPlan chosen = keep ? *in_memory : *in_files;
-  chosen.place = keep ? Place::kDevice : Place::kFile;
   if (!keep)
     chosen.work_folder = options.work_folder.empty()
                              ? temporary_folder(" or name another folder by --work")

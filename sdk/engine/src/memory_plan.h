@@ -31,14 +31,21 @@ struct MemoryPlan {
   int decoders = 1;  ///< Pictures that may be decoded at a time, in the room of the bands to come.
 };
 
+/// What a device has.
+struct DeviceLimits {
+  double memory = 0;                   ///< bytes of its own
+  double largest_buffer = 1800 << 20;  ///< bytes; every driver we know grants so much
+  bool shares_host_memory = true;      ///< then it has no other memory than the host's
+};
+
 /// options: resolved (range, hypotheses). Throws Error(kOutOfMemory) when even one row at a time
 /// does not fit.
 MemoryPlan plan_memory(const LightField& light_field, const DepthOptions& options,
-                       const HypothesisRange& hypotheses);
+                       const HypothesisRange& hypotheses, const DeviceLimits& device);
 
 /// Least DepthOptions::memory_bytes that there is a plan for.
 double least_memory_limit(const LightField& light_field, const DepthOptions& options,
-                          const HypothesisRange& hypotheses);
+                          const HypothesisRange& hypotheses, const DeviceLimits& device);
 
 /// Sizes of all levels: halved, odd sizes rounded up, until a dimension would fall below 10 px.
 std::vector<LevelShape> level_shapes(int width, int height, bool fine_to_coarse);

@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <limits>
 #include <span>
 #include <sstream>
 
+#include "gigaray/device.h"
 #include "gigaray/kept_pictures.h"
 #include "gigaray/scene_estimates.h"
 #include "gigaray/smoothing.h"
@@ -169,9 +171,21 @@ std::string kernel_job(const Prepared& run, const BackendChoice& choice) {
   return text.str();
 }
 
+/// What the device of a run has; where there is none the run will say so, and a forecast is one for
+/// a usual one.
+DeviceLimits limits_of(const BackendChoice& choice) {
+  if (choice.backend == "reference") return {0, std::numeric_limits<double>::infinity(), true};
+  try {
+    const DeviceInfo info = select_device(choice.device);
+    return {double(info.global_memory), double(info.max_allocation), info.shares_host_memory};
+  } catch (const Error&) {
+    return {};
+  }
+}
+
 /// The plan, with the compiler in the forecast where there is something to compile.
 MemoryPlan plan_run(const Prepared& run, const BackendChoice& choice) {
-  MemoryPlan plan = plan_memory(run.light_field, run.options, run.hypotheses);
+  MemoryPlan plan = plan_memory(run.light_field, run.options, run.hypotheses, limits_of(choice));
   if (choice.backend == "reference" || opencl::kernels_are_ready(kernel_job(run, choice))) {
     plan.forecast.memory_bytes -= plan.compiler_bytes;
     plan.forecast.memory_all_bytes -= plan.compiler_bytes;
@@ -241,7 +255,7 @@ Forecast forecast(const LightField& light_field, const DepthOptions& options,
 
 double least_memory_bytes(const LightField& light_field, const DepthOptions& options) {
   const Prepared run = prepare(light_field, options, RunControl{});
-  return least_memory_limit(run.light_field, run.options, run.hypotheses);
+  return least_memory_limit(run.light_field, run.options, run.hypotheses, limits_of({}));
 }
 
 ScoreCurve probe(const LightField& light_field, const DepthOptions& options,
