@@ -56,6 +56,25 @@ TYPED_TEST(PackedScore, LonelyPixelsScoreAsTheReference) {
     }
 }
 
+TYPED_TEST(PackedScore, BlocksOfEveryFilling) {
+  // None to 16 pixels of a block, scattered; the last block of a row is cut off.
+  DepthOptions options = paper_options();
+  options.score.mean_shift_iterations = 2;
+  options.score.bandwidth = 0.1f;
+  ParityBench<TypeParam> bench(ParityCase{93, 31, {5, 22}, BandEncoding::kBits16}, options);
+  StripMap<std::uint8_t> todo(bench.width(), bench.rows());
+  for (int v = bench.rows().begin; v < bench.rows().end; ++v)
+    for (int u = 0; u < bench.width(); ++u)
+      todo.row(v)[u] = (5 * u + 3 * v) % 16 < (u / 16 + v) % 17;
+  const auto bounds = bench.random_bounds(bench.rows());
+  bench.reference->density_score(1, bench.rows(), todo, bounds);
+  bench.opencl->density_score(1, bench.rows(), todo, bounds);
+  expect_scores_near(bench, todo, bounds, *bench.reference, kScore);
+  // None to do: nothing is packed.
+  const StripMap<std::uint8_t> nothing(bench.width(), bench.rows());
+  bench.opencl->density_score(1, bench.rows(), nothing, bounds);
+}
+
 TYPED_TEST(PackedScore, NeighboursDoNotChangeTheScoreOfAPixel) {
   for (const ParityCase& size : parity_cases()) {
     ParityBench<TypeParam> bench(size, paper_options());  // stops early, each pixel by itself

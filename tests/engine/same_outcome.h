@@ -85,8 +85,7 @@ void expect_same(ParityBench<S>& bench, Step step) {
   EXPECT_EQ(expected.difference(step(*bench.opencl)), "")
       << bench.width() << " x " << bench.height() << ", rows " << bench.rows().begin << " to "
       << bench.rows().end;
-  EXPECT_TRUE(bench.width() < 90 || expected.varies())
-      << "nothing was done";
+  EXPECT_TRUE(bench.width() < 90 || expected.varies()) << "nothing was done";
 }
 
 }  // namespace gigaray::testing_support

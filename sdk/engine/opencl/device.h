@@ -34,6 +34,9 @@ class Device {
   Device& operator=(Device&&) = default;
 
   const DeviceInfo& info() const { return info_; }
+  /// As if it had no doubles, or no 64-bit atomics: so that any device can stand for such a one.
+  void hide_fp64() { info_.has_fp64 = false; }
+  void hide_int64_atomics() { info_.has_int64_atomics = false; }
   const cl::Device& id() const { return id_; }
   const cl::Context& context() const { return context_; }
   const cl::CommandQueue& queue() const { return queue_; }

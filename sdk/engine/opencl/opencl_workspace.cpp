@@ -12,9 +12,17 @@ template <RaySampler S>
 std::unique_ptr<Workspace> make_tuned_workspace(const S& sampler, const WorkspaceSetup& setup,
                                                 const std::string& device_selection,
                                                 const TuningOverrides& overrides) {
+  Device device = Device::open(device_selection, Profiling::kOn);
+  if (const auto parts = overrides.find(kDeviceParts); parts != overrides.end()) {
+    const auto lacks = [&](const char* part) {
+      const auto it = parts->second.find(part);
+      return it != parts->second.end() && it->second == 0;
+    };
+    if (lacks("FP64")) device.hide_fp64();
+    if (lacks("INT64_ATOMICS")) device.hide_int64_atomics();
+  }
   return std::make_unique<DeviceWorkspace>(twin_of(sampler, setup.hypotheses), setup,
-                                           Device::open(device_selection, Profiling::kOn),
-                                           overrides);
+                                           std::move(device), overrides);
 }
 
 template std::unique_ptr<Workspace> make_tuned_workspace(const EpiSampler&, const WorkspaceSetup&,
