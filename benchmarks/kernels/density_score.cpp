@@ -48,7 +48,7 @@ double changed_by_last_iteration(const TrialShape& shape, int iterations) {
   const TrialShape small = KernelTrial::check_shape(shape);
   const auto scores = [&](int count) {
     KernelTrial trial(small, every_iteration(count));
-    return trial.answer(*trial.opencl(""), "density_score");  // [v][u][hypothesis]
+    return trial.answer(*trial.opencl(Device::open()), "density_score");  // [v][u][hypothesis]
   };
   const auto all = scores(iterations), fewer = scores(iterations - 1);
   constexpr int kBlock = 16;

@@ -14,7 +14,7 @@ bool KernelCase::make_ready() {
   if (bench_) return false;
   KernelTrial check(KernelTrial::check_shape(shape_), options_);
   const auto expected = check.answer(*check.reference(), kernel_);
-  const auto actual = check.answer(*check.opencl(""), kernel_);
+  const auto actual = check.answer(*check.opencl(Device::open()), kernel_);
   const Agreement agreement = KernelTrial::compare(kernel_, expected, actual);
   if (!agreement.good())
     throw Error(ErrorCode::kDevice, kernel_ + " is wrong on this device: " +
@@ -22,7 +22,7 @@ bool KernelCase::make_ready() {
                                         " % of the values differ from the reference, by up to " +
                                         std::to_string(agreement.largest));
   trial_.emplace(shape_, options_);
-  auto bench = trial_->opencl("");
+  auto bench = trial_->opencl(Device::open());
   trial_->prepare(*bench, kernel_);
   trial_->run(*bench, kernel_);
   bench_ = std::move(bench);

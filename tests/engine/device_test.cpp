@@ -177,7 +177,7 @@ TEST_F(Kernels, FailuresNameTheKernelAndTheArgument) {
 }
 
 TEST_F(Kernels, ProfilingTellsTheTimeOfAStage) {
-  auto device = Device::open("", Profiling::kOn);
+  auto device = Device::open();
   const SourcePart part{"one.cl", "kernel void one(global int* x, int n) { x[0] = n; }"};
   Kernel kernel(device, build_program(device, {&part, 1}), "one");
   const Buffer buffer(device, sizeof(int));

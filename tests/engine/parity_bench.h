@@ -135,7 +135,8 @@ class ParityBench {
     const WorkspaceSetup setup{options, hypotheses_, ParityRig<S>::kKind,
                                size.encoding == BandEncoding::kBits16 ? 16 : 8};
     reference = std::make_unique<HostSteps>(make_reference_workspace(sampler_, setup));
-    opencl = std::make_unique<HostSteps>(opencl::make_tuned_workspace(sampler_, setup, "", tuning));
+    opencl = std::make_unique<HostSteps>(
+        opencl::make_tuned_workspace(sampler_, setup, Device::open().opened(), tuning));
     // No window reaches farther.
     const int halo = std::max(kSlopeReach, kScanlineReach + options.support.radius) + 3;
     loaded = rows_of_all(grown(size.rows, halo, size.height));

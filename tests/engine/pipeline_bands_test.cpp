@@ -8,6 +8,7 @@
 #include <set>
 
 #include "engine/cache_fixture.h"
+#include "gigaray/device.h"
 #include "src/make_workspace.h"
 #include "src/pipeline.h"
 #include "support/analytic_field.h"
@@ -119,9 +120,10 @@ struct PlannedRun {
     const RunControl control;
     std::visit(
         [&](const auto& sampler) {
-          const auto workspace = backend_name == "reference"
-                                     ? make_reference_workspace(sampler, setup)
-                                     : make_opencl_workspace(sampler, setup, "");
+          const auto workspace =
+              backend_name == "reference"
+                  ? make_reference_workspace(sampler, setup)
+                  : make_opencl_workspace(sampler, setup, Device::open().opened());
           Pipeline pipeline(light_field, options, hypotheses, plan, *workspace, control);
           pipeline.run();
           pipeline.tuples().for_each([&](const RayTuple& tuple) { tuples.push_back(tuple); });

@@ -63,7 +63,7 @@ TEST_F(Tune, StoresRightSettingsThatStillAgree) {
       }
     KernelTrial check(KernelTrial::check_shape({}), paper_options());
     EXPECT_TRUE(KernelTrial::compare(result.kernel, check.answer(*check.reference(), result.kernel),
-                                     check.answer(*check.opencl(""), result.kernel))
+                                     check.answer(*check.opencl(Device::open()), result.kernel))
                     .good())
         << result.kernel;
   }

@@ -20,7 +20,7 @@ struct DepthResult {
   std::vector<RayTuple> tuples;
 };
 
-inline DepthResult all_of(Reconstruction& reconstruction) {
+inline DepthResult all_of(const Reconstruction& reconstruction) {
   DepthResult result;
   for (const int view : reconstruction.views()) result.views[view] = reconstruction.view(view);
   reconstruction.for_each_tuple([&](const RayTuple& tuple) { result.tuples.push_back(tuple); });

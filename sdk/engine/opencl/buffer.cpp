@@ -133,12 +133,12 @@ void Kernel::check_arg(cl_int error, cl_uint index, std::size_t bytes) const {
 void Kernel::run(const WorkSize& global, const WorkSize& local) const {
   GIGARAY_CHECK(global.dimensions() == local.dimensions());
   cl::Event event;
-  const cl_int error = queue_.enqueueNDRangeKernel(kernel_, cl::NullRange, global, local, nullptr,
-                                                   log_ ? &event : nullptr);
+  const cl_int error =
+      queue_.enqueueNDRangeKernel(kernel_, cl::NullRange, global, local, nullptr, &event);
   if (error != CL_SUCCESS)
     check_cl(error, "kernel " + name_ + " over " + to_text(global) + " items in groups of " +
                         to_text(local));
-  if (log_) log_->add(std::move(event));
+  log_->add(std::move(event));
 }
 
 }  // namespace gigaray::opencl

@@ -4,13 +4,13 @@
 
 #include <algorithm>
 #include <charconv>
-#include <cstdlib>
 #include <mutex>
 #include <type_traits>
 #include <vector>
 
 #include "opencl/cache_folder.h"
 #include "opencl/pocl_cache.h"
+#include "opencl/ready_kernels.h"
 #include "opencl/text.h"
 
 namespace gigaray::opencl {
@@ -117,13 +117,7 @@ FoundDevice select(const std::string& given) {
   if (found.empty())
     throw Error(ErrorCode::kDevice,
                 "no OpenCL device found: install pocl-opencl-icd or a GPU driver");
-  std::string selection = given;
-  std::string source = "device";
-  if (selection.empty()) {
-    const char* fallback = std::getenv("GIGARAY_DEVICE");
-    if (fallback) selection = fallback;
-    source = "GIGARAY_DEVICE";
-  }
+  const std::string selection = stated_device(given);
   if (selection.empty()) {
     for (const auto type : {DeviceType::kGpu, DeviceType::kCpu}) {
       for (const auto& device : found)
@@ -133,6 +127,7 @@ FoundDevice select(const std::string& given) {
   }
   const auto chosen = match(found, selection);
   if (chosen != found.end()) return *chosen;
+  const std::string source = given.empty() ? "GIGARAY_DEVICE" : "device";
   std::string message = source + " '" + selection + "' matches no OpenCL device; there is";
   for (const auto& device : found)
     message += (device.info.index ? ", " : " ") + std::to_string(device.info.index) + ": " +
@@ -142,23 +137,58 @@ FoundDevice select(const std::string& given) {
 
 }  // namespace
 
-Device Device::open(const std::string& selection, Profiling profiling) {
-  auto [id, info] = select(selection);
-  Device device;
-  device.info_ = std::move(info);
-  device.id_ = id;
-  if (profiling == Profiling::kOn) device.log_ = std::make_shared<EventLog>();
+Device::Device(std::shared_ptr<Opened> opened)
+    : opened_(std::move(opened)), log_(std::make_shared<EventLog>()) {
   cl_int error = CL_SUCCESS;
-  device.context_ = cl::Context(id, nullptr, nullptr, nullptr, &error);
-  check_cl(error, "clCreateContext on " + device.info_.name);
-  device.queue_ = cl::CommandQueue(
-      device.context_, id, device.log_ ? cl_command_queue_properties(CL_QUEUE_PROFILING_ENABLE) : 0,
-      &error);
-  check_cl(error, "clCreateCommandQueue on " + device.info_.name);
-  return device;
+  queue_ = cl::CommandQueue(context(), id(), cl_command_queue_properties(CL_QUEUE_PROFILING_ENABLE),
+                            &error);
+  check_cl(error, "clCreateCommandQueue on " + info().name);
+}
+
+Device Device::make(cl::Device id, DeviceInfo info, std::string selection) {
+  cl_int error = CL_SUCCESS;
+  cl::Context context(id, nullptr, nullptr, nullptr, &error);
+  check_cl(error, "clCreateContext on " + info.name);
+  auto opened = std::make_shared<Opened>();
+  opened->info = std::move(info);
+  opened->selection = std::move(selection);
+  opened->id = std::move(id);
+  opened->context = std::move(context);
+  return Device(std::move(opened));
+}
+
+Device Device::open(const std::string& selection) {
+  FoundDevice found = select(selection);
+  return make(std::move(found.device), std::move(found.info), stated_device(selection));
+}
+
+Device Device::with_own_queue() const { return Device(opened_); }
+
+std::vector<Device> Device::split(int parts) const {
+  GIGARAY_CHECK(parts > 0);
+  const cl_device_partition_property units = info().compute_units / parts;
+  const cl_device_partition_property equally[] = {CL_DEVICE_PARTITION_EQUALLY, units, 0};
+  std::vector<cl::Device> found;
+  const std::string what = "splitting " + info().name + " into " + std::to_string(parts);
+  if (units == 0)
+    throw Error(ErrorCode::kDevice,
+                what + ": it has " + std::to_string(info().compute_units) + " compute units");
+  check_cl(cl::Device(id()).createSubDevices(equally, &found), what);
+  std::vector<Device> devices;
+  for (int i = 0; i < parts; ++i) {
+    DeviceInfo part = info();
+    part.compute_units = int(units);
+    devices.push_back(make(found.at(i), std::move(part), selection()));
+  }
+  return devices;
 }
 
 void Device::finish() const { GIGARAY_CL(queue_.finish()); }
+
+ProgramCounters Device::counters() const {
+  const std::lock_guard lock(programs().mutex);
+  return programs().counters;
+}
 
 }  // namespace gigaray::opencl
 
@@ -183,5 +213,16 @@ std::vector<DeviceInfo> list_devices() {
 }
 
 DeviceInfo select_device(const std::string& selection) { return opencl::select(selection).info; }
+
+Device::Device(std::shared_ptr<const opencl::Device> opened) : opened_(std::move(opened)) {
+  GIGARAY_CHECK(opened_ != nullptr);
+}
+
+Device Device::open(const std::string& selection) {
+  return Device(std::make_shared<const opencl::Device>(opencl::Device::open(selection)));
+}
+
+const DeviceInfo& Device::info() const { return opened_->info(); }
+const std::string& Device::selection() const { return opened_->selection(); }
 
 }  // namespace gigaray

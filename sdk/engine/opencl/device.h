@@ -4,7 +4,10 @@
 
 #include <map>
 #include <memory>
+#include <mutex>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "gigaray/device.h"
 #include "opencl/errors.h"
@@ -19,46 +22,66 @@ struct ProgramCounters {
   int reused = 0;  ///< Found in memory.
 };
 
-enum class Profiling : bool { kOff, kOn };
+/// What build_program() keeps of a device.
+struct Programs {
+  std::mutex mutex;  ///< of all that follows
+  std::map<std::string, cl::Program> by_key;
+  ProgramCounters counters;
+};
 
-/// An open device: a context, one in-order queue, and the programs built so far. Movable, not
-/// copyable. One thread at a time may use a device and what was made with it; several devices, even
-/// on the same hardware, may be used in parallel.
+/// An open device, seen through one in-order queue. Copies are cheap: they share context, programs
+/// and queue. One thread at a time may use a queue and what was made with it; with_own_queue() is
+/// for another thread, and so is a device opened again. build_program() is thread-safe.
 class Device {
  public:
-  /// selection: see select_device(). Profiling makes log() possible and costs a little
-  /// time for every command. Throws Error(kDevice).
-  static Device open(const std::string& selection = "", Profiling profiling = Profiling::kOff);
+  /// selection: see select_device(). Throws Error(kDevice).
+  static Device open(const std::string& selection = "");
 
-  Device(Device&&) = default;
-  Device& operator=(Device&&) = default;
+  /// The same context and programs with a queue and a log of its own. Thread-safe.
+  Device with_own_queue() const;
 
-  const DeviceInfo& info() const { return info_; }
+  /// Devices with as many compute units each, in their own contexts: several devices for tests,
+  /// where there is one CPU. Throws Error(kDevice) where there are too few units, or the driver
+  /// can't do it.
+  std::vector<Device> split(int parts) const;
+
+  const DeviceInfo& info() const { return seen_ ? *seen_ : opened_->info; }
   /// As if it had no doubles, or no 64-bit atomics: so that any device can stand for such a one.
-  void hide_fp64() { info_.has_fp64 = false; }
-  void hide_int64_atomics() { info_.has_int64_atomics = false; }
-  const cl::Device& id() const { return id_; }
-  const cl::Context& context() const { return context_; }
+  void hide_fp64() { hide().has_fp64 = false; }
+  void hide_int64_atomics() { hide().has_int64_atomics = false; }
+  /// What was given to open(), or GIGARAY_DEVICE if that was empty.
+  const std::string& selection() const { return opened_->selection; }
+  const cl::Device& id() const { return opened_->id; }
+  const cl::Context& context() const { return opened_->context; }
   const cl::CommandQueue& queue() const { return queue_; }
-  /// Where commands are noted; null without profiling.
+  /// Where the kernels of this queue are noted.
   const std::shared_ptr<EventLog>& log() const { return log_; }
 
-  void finish() const;  ///< Waits until all commands are done.
+  void finish() const;  ///< Waits until all commands of the queue are done.
 
-  /// Programs by key, see program_cache.h.
-  std::map<std::string, cl::Program>& programs() { return programs_; }
-  ProgramCounters& counters() { return counters_; }
+  Programs& programs() const { return opened_->programs; }
+  ProgramCounters counters() const;  ///< of all queues; thread-safe
 
  private:
-  Device() = default;
+  struct Opened {
+    DeviceInfo info;
+    std::string selection;
+    cl::Device id;
+    cl::Context context;
+    Programs programs;
+  };
+  explicit Device(std::shared_ptr<Opened> opened);
+  static Device make(cl::Device id, DeviceInfo info, std::string selection);
 
-  DeviceInfo info_;
-  cl::Device id_;
-  cl::Context context_;
+  DeviceInfo& hide() {
+    if (!seen_) seen_ = opened_->info;
+    return *seen_;
+  }
+
+  std::shared_ptr<Opened> opened_;
+  std::optional<DeviceInfo> seen_;  ///< less than it has
   cl::CommandQueue queue_;
   std::shared_ptr<EventLog> log_;
-  std::map<std::string, cl::Program> programs_;
-  ProgramCounters counters_;
 };
 
 }  // namespace gigaray::opencl

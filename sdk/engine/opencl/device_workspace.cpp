@@ -24,11 +24,11 @@ class DeviceWorkspace::DeviceMemory : public Memory {
   Buffer buffer;
 };
 
-DeviceWorkspace::DeviceWorkspace(SamplerTwin sampler, const WorkspaceSetup& setup, Device device,
-                                 TuningOverrides overrides)
+DeviceWorkspace::DeviceWorkspace(SamplerTwin sampler, const WorkspaceSetup& setup,
+                                 const Device& device, TuningOverrides overrides)
     : all_views_(std::move(sampler)),
       setup_(setup),
-      device_(std::move(device)),
+      device_(device.with_own_queue()),
       kernels_(device_, all_views_.kernel_file,
                define("CHANNELS", channels()) + define("SHIFT_ALIKE", all_views_.rays_shift_alike),
                all_views_.num_views, std::move(overrides)),

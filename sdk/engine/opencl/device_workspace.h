@@ -22,7 +22,8 @@ namespace gigaray::opencl {
 /// device_estimates.cpp.
 class DeviceWorkspace : public Workspace {
  public:
-  DeviceWorkspace(SamplerTwin sampler, const WorkspaceSetup& setup, Device device,
+  /// With a queue of its own on the device.
+  DeviceWorkspace(SamplerTwin sampler, const WorkspaceSetup& setup, const Device& device,
                   TuningOverrides overrides);
 
   std::string name() const override { return "opencl"; }

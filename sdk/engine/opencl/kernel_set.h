@@ -20,7 +20,7 @@ inline constexpr const char* kMapSteps = "map steps";
 class KernelSet {
  public:
   /// sampler_file: a file of samplers/kernels. common: options of every kernel.
-  KernelSet(Device& device, std::string sampler_file, std::string common, int num_views,
+  KernelSet(const Device& device, std::string sampler_file, std::string common, int num_views,
             TuningOverrides overrides)
       : device_(device),
         sampler_file_(std::move(sampler_file)),
@@ -37,7 +37,7 @@ class KernelSet {
   Kernel build(const std::string& file, const std::string& entry, const std::string& options);
   Tuning tuning_of(const std::string& kernel) const;
 
-  Device& device_;
+  const Device& device_;
   std::string sampler_file_, common_;
   int num_views_;
   TuningOverrides overrides_;

@@ -10,9 +10,9 @@ namespace opencl {
 
 template <RaySampler S>
 std::unique_ptr<Workspace> make_tuned_workspace(const S& sampler, const WorkspaceSetup& setup,
-                                                const std::string& device_selection,
+                                                const Device& opened,
                                                 const TuningOverrides& overrides) {
-  Device device = Device::open(device_selection, Profiling::kOn);
+  Device device = opened;
   if (const auto parts = overrides.find(kDeviceParts); parts != overrides.end()) {
     const auto lacks = [&](const char* part) {
       const auto it = parts->second.find(part);
@@ -22,33 +22,31 @@ std::unique_ptr<Workspace> make_tuned_workspace(const S& sampler, const Workspac
     if (lacks("INT64_ATOMICS")) device.hide_int64_atomics();
   }
   return std::make_unique<DeviceWorkspace>(twin_of(sampler, setup.hypotheses), setup,
-                                           std::move(device), overrides);
+                                           device, overrides);
 }
 
 template std::unique_ptr<Workspace> make_tuned_workspace(const EpiSampler&, const WorkspaceSetup&,
-                                                         const std::string&,
-                                                         const TuningOverrides&);
+                                                         const Device&, const TuningOverrides&);
 template std::unique_ptr<Workspace> make_tuned_workspace(const GridSampler&, const WorkspaceSetup&,
-                                                         const std::string&,
-                                                         const TuningOverrides&);
+                                                         const Device&, const TuningOverrides&);
 template std::unique_ptr<Workspace> make_tuned_workspace(const UnstructuredSampler&,
-                                                         const WorkspaceSetup&, const std::string&,
+                                                         const WorkspaceSetup&, const Device&,
                                                          const TuningOverrides&);
 
 }  // namespace opencl
 
 template <RaySampler S>
 std::unique_ptr<Workspace> make_opencl_workspace(const S& sampler, const WorkspaceSetup& setup,
-                                                 const std::string& device_selection) {
-  return opencl::make_tuned_workspace(sampler, setup, device_selection, {});
+                                                 const opencl::Device& device) {
+  return opencl::make_tuned_workspace(sampler, setup, device, {});
 }
 
 template std::unique_ptr<Workspace> make_opencl_workspace(const EpiSampler&, const WorkspaceSetup&,
-                                                          const std::string&);
+                                                          const opencl::Device&);
 template std::unique_ptr<Workspace> make_opencl_workspace(const GridSampler&, const WorkspaceSetup&,
-                                                          const std::string&);
+                                                          const opencl::Device&);
 template std::unique_ptr<Workspace> make_opencl_workspace(const UnstructuredSampler&,
                                                           const WorkspaceSetup&,
-                                                          const std::string&);
+                                                          const opencl::Device&);
 
 }  // namespace gigaray

@@ -19,7 +19,7 @@ inline constexpr const char* kDeviceParts = "device parts";
 /// make_opencl_workspace() with other compile-time parameters: what tuning tries.
 template <RaySampler S>
 std::unique_ptr<Workspace> make_tuned_workspace(const S& sampler, const WorkspaceSetup& setup,
-                                                const std::string& device_selection,
+                                                const Device& device,
                                                 const TuningOverrides& overrides);
 
 }  // namespace gigaray::opencl

@@ -120,14 +120,16 @@ std::string binary_of(const cl::Program& program) {
 
 }  // namespace
 
-cl::Program build_program(Device& device, std::span<const SourcePart> parts,
+cl::Program build_program(const Device& device, std::span<const SourcePart> parts,
                           const std::string& options) {
   const std::string all_options = options.empty() ? "-cl-std=CL1.2" : "-cl-std=CL1.2 " + options;
   const std::string source = join(parts);
   const Hash key = program_key(device.info(), source, all_options);
   const std::string name = to_hex(key);
-  if (const auto known = device.programs().find(name); known != device.programs().end()) {
-    ++device.counters().reused;
+  Programs& programs = device.programs();
+  const std::lock_guard lock(programs.mutex);
+  if (const auto known = programs.by_key.find(name); known != programs.by_key.end()) {
+    ++programs.counters.reused;
     return known->second;
   }
 
@@ -139,10 +141,10 @@ cl::Program build_program(Device& device, std::span<const SourcePart> parts,
       program = program_from(device, *binary, all_options);
   }
   if (program()) {
-    ++device.counters().loaded;
+    ++programs.counters.loaded;
   } else {
     program = compile(device, source, all_options, parts);
-    ++device.counters().built;
+    ++programs.counters.built;
     if (folder) {
       if (const auto binary = binary_of(program); !binary.empty()) save_binary(path, key, binary);
     }
@@ -151,7 +153,7 @@ cl::Program build_program(Device& device, std::span<const SourcePart> parts,
     malloc_trim(0);
 #endif
   }
-  device.programs().emplace(name, program);
+  programs.by_key.emplace(name, program);
   return program;
 }
 

@@ -2,7 +2,7 @@
 // Copyright (c) 2026 The Gigaray authors
 #include "opencl/ready_kernels.h"
 
-#include <string>
+#include <cstdlib>
 
 #include "opencl/cache_folder.h"
 #include "opencl/content_hash.h"
@@ -22,6 +22,11 @@ fs::path file_of(const fs::path& cache, std::string_view job) {
 }
 
 }  // namespace
+
+std::string stated_device(const std::string& selection) {
+  const char* usual = std::getenv("GIGARAY_DEVICE");
+  return selection.empty() && usual ? usual : selection;
+}
 
 bool kernels_are_ready(std::string_view job) {
   const auto cache = cache_folder();

@@ -3,9 +3,13 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <string_view>
 
 namespace gigaray::opencl {
+
+/// The selection of a device as it is meant: GIGARAY_DEVICE where it is empty. See select_device().
+std::string stated_device(const std::string& selection);
 
 /// Has a run of this kind come to its end with the cache as it is? Then another one has little to
 /// compile, which takes much memory. `job` is any text that names what the kernels depend on. False

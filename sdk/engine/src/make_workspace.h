@@ -10,6 +10,9 @@
 #include "workspace.h"
 
 namespace gigaray {
+namespace opencl {
+class Device;
+}
 
 /// What a workspace needs to know about a run.
 struct WorkspaceSetup {
@@ -26,9 +29,10 @@ std::vector<float> colour_table(int bit_depth, bool linear_rgb);
 template <RaySampler S>
 std::unique_ptr<Workspace> make_reference_workspace(const S& sampler, const WorkspaceSetup& setup);
 
-/// OpenCL kernels on the device that `device_selection` means, see select_device().
+/// OpenCL kernels on an open device, in a queue and with kernels of its own: several workspaces of
+/// one device may be used at once, each by one thread.
 template <RaySampler S>
 std::unique_ptr<Workspace> make_opencl_workspace(const S& sampler, const WorkspaceSetup& setup,
-                                                 const std::string& device_selection);
+                                                 const opencl::Device& device);
 
 }  // namespace gigaray

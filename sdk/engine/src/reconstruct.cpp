@@ -4,12 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 #include <span>
 #include <sstream>
 
 #include "gigaray/device.h"
+#include "gigaray/estimator.h"
 #include "gigaray/kept_pictures.h"
 #include "gigaray/scene_estimates.h"
 #include "gigaray/smoothing.h"
@@ -156,14 +156,13 @@ void adapt_to_pictures(Prepared& run, const RunControl& control) {
     run.light_field = smoothed(run.light_field, run.options.score.smoothing);
 }
 
-/// What the kernels of a run depend on, without asking a device.
-std::string kernel_job(const Prepared& run, const BackendChoice& choice) {
+/// What the kernels of a run depend on, without asking a device. device: as it is stated.
+std::string kernel_job(const Prepared& run, const std::string& device) {
   const DepthOptions& o = run.options;
-  const char* usual = std::getenv("GIGARAY_DEVICE");
   std::ostringstream text;
-  text << choice.device << '|' << (usual ? usual : "") << '|' << to_string(run.light_field.kind)
-       << ' ' << run.light_field.pixels->bit_depth() << ' ' << run.light_field.pixels->has_mask()
-       << ' ' << o.edge.threshold << ' ' << o.edge.squared << ' ' << o.score.linear_rgb << ' '
+  text << device << '|' << to_string(run.light_field.kind) << ' '
+       << run.light_field.pixels->bit_depth() << ' ' << run.light_field.pixels->has_mask() << ' '
+       << o.edge.threshold << ' ' << o.edge.squared << ' ' << o.score.linear_rgb << ' '
        << o.score.cubic << ' ' << o.score.gradient << ' ' << o.score.ray_mean << ' '
        << o.support.radius << ' ' << o.support.slanted << ' ' << o.support.half_planes << ' '
        << o.support.scanline << ' ' << o.winner.refine << ' ' << o.winner.median_radius << ' '
@@ -171,45 +170,68 @@ std::string kernel_job(const Prepared& run, const BackendChoice& choice) {
   return text.str();
 }
 
-/// What the device of a run has; where there is none the run will say so, and a forecast is one for
-/// a usual one.
-DeviceLimits limits_of(const BackendChoice& choice) {
-  if (choice.backend == "reference") return {0, std::numeric_limits<double>::infinity(), true};
+/// What a device has; where there is none the run will say so, and a forecast is one for a usual one.
+DeviceLimits limits_of(const std::string& device) {
   try {
-    const DeviceInfo info = select_device(choice.device);
+    const DeviceInfo info = select_device(device);
     return {double(info.global_memory), double(info.max_allocation), info.shares_host_memory};
   } catch (const Error&) {
     return {};
   }
 }
 
-/// The plan, with the compiler in the forecast where there is something to compile.
-MemoryPlan plan_run(const Prepared& run, const BackendChoice& choice) {
-  MemoryPlan plan = plan_memory(run.light_field, run.options, run.hypotheses, limits_of(choice));
-  if (choice.backend == "reference" || opencl::kernels_are_ready(kernel_job(run, choice))) {
+/// The plan, with the compiler in the forecast where there is something to compile. device: as it
+/// is stated; none: the reference.
+MemoryPlan plan_run(const Prepared& run, const std::optional<std::string>& device) {
+  const DeviceLimits host{0, std::numeric_limits<double>::infinity(), true};
+  MemoryPlan plan = plan_memory(run.light_field, run.options, run.hypotheses,
+                                device ? limits_of(*device) : host);
+  if (!device || opencl::kernels_are_ready(kernel_job(run, *device))) {
     plan.forecast.memory_bytes -= plan.compiler_bytes;
     plan.forecast.memory_all_bytes -= plan.compiler_bytes;
   }
   return plan;
 }
 
-std::unique_ptr<Workspace> make_workspace(const Prepared& run, const BackendChoice& choice) {
+std::optional<std::string> stated(const std::optional<Device>& device) {
+  return device ? std::optional(device->selection()) : std::nullopt;
+}
+
+std::unique_ptr<Workspace> make_workspace(const Prepared& run,
+                                          const std::optional<Device>& device) {
   const WorkspaceSetup setup{run.options, run.hypotheses, run.light_field.kind,
                              run.light_field.pixels->bit_depth()};
   return std::visit(
-      [&](const auto& sampler) -> std::unique_ptr<Workspace> {
-        if (choice.backend == "reference") return make_reference_workspace(sampler, setup);
-        if (choice.backend == "opencl") return make_opencl_workspace(sampler, setup, choice.device);
-        throw Error(ErrorCode::kInvalidArgument,
-                    "backend " + choice.backend + ": there are opencl and reference");
+      [&](const auto& sampler) {
+        return device ? make_opencl_workspace(sampler, setup, device->opened())
+                      : make_reference_workspace(sampler, setup);
       },
       make_sampler(run.light_field));
 }
 
 }  // namespace
 
+Estimator::Estimator(Device device) : device_(std::move(device)) {}
+
+Estimator Estimator::reference() { return Estimator(std::nullopt); }
+
+Estimator Estimator::of(const BackendChoice& choice) {
+  if (choice.backend == "reference") return reference();
+  if (choice.backend == "opencl") return Estimator(Device::open(choice.device));
+  throw Error(ErrorCode::kInvalidArgument,
+              "backend " + choice.backend + ": there are opencl and reference");
+}
+
 Reconstruction reconstruct(const LightField& light_field, const DepthOptions& options,
                            const BackendChoice& backend, const RunControl& control) {
+  // Before a device is opened.
+  check(light_field);
+  options.check();
+  return Estimator::of(backend).reconstruct(light_field, options, control);
+}
+
+Reconstruction Estimator::reconstruct(const LightField& light_field, const DepthOptions& options,
+                                      const RunControl& control) const {
   auto impl = std::make_unique<Reconstruction::Impl>();
   LightField seen;
   std::string job;
@@ -224,20 +246,20 @@ Reconstruction reconstruct(const LightField& light_field, const DepthOptions& op
     Prepared run = prepare(given, wanted, control);
     impl->light_field = std::move(given);
     impl->light_field.pixels = light_field.pixels;
-    impl->plan = plan_run(run, backend);
-    job = kernel_job(run, backend);
+    impl->plan = plan_run(run, stated(device_));
+    if (device_) job = kernel_job(run, device_->selection());
     adapt_to_pictures(run, control);
     seen = run.light_field;
     impl->options = run.options;
     impl->hypotheses = run.hypotheses;
     impl->cameras = seen.cameras;
     impl->sampler = make_sampler(seen);
-    workspace = make_workspace(run, backend);
+    workspace = make_workspace(run, device_);
   }
   impl->device = workspace->name() + ": " + workspace->description();
   Pipeline pipeline(seen, impl->options, impl->hypotheses, impl->plan, *workspace, control);
   pipeline.run();
-  if (backend.backend == "opencl") opencl::note_ready_kernels(job);
+  if (device_) opencl::note_ready_kernels(job);
   impl->maps = std::move(pipeline.maps());
   impl->searches = std::move(pipeline.searches());
   impl->active = pipeline.active_views();
@@ -250,17 +272,27 @@ Reconstruction reconstruct(const LightField& light_field, const DepthOptions& op
 
 Forecast forecast(const LightField& light_field, const DepthOptions& options,
                   const BackendChoice& backend) {
-  return plan_run(prepare(light_field, options, RunControl{}), backend).forecast;
+  std::optional<std::string> device;
+  if (backend.backend != "reference") device = opencl::stated_device(backend.device);
+  return plan_run(prepare(light_field, options, RunControl{}), device).forecast;
 }
 
 double least_memory_bytes(const LightField& light_field, const DepthOptions& options) {
   const Prepared run = prepare(light_field, options, RunControl{});
-  return least_memory_limit(run.light_field, run.options, run.hypotheses, limits_of({}));
+  return least_memory_limit(run.light_field, run.options, run.hypotheses, limits_of(""));
 }
 
 ScoreCurve probe(const LightField& light_field, const DepthOptions& options,
-                 const BackendChoice& choice, int view_idx, int u, int v,
+                 const BackendChoice& backend, int view_idx, int u, int v,
                  const RunControl& control) {
+  // Before a device is opened.
+  check(light_field);
+  options.check();
+  return Estimator::of(backend).probe(light_field, options, view_idx, u, v, control);
+}
+
+ScoreCurve Estimator::probe(const LightField& light_field, const DepthOptions& options,
+                            int view_idx, int u, int v, const RunControl& control) const {
   const int width = light_field.width, height = light_field.height;
   if (view_idx < 0 || view_idx >= light_field.num_views() || u < 0 || u >= width || v < 0 ||
       v >= height)
@@ -274,7 +306,7 @@ ScoreCurve probe(const LightField& light_field, const DepthOptions& options,
   require_direction(given, wanted, control);
   Prepared run = prepare(given, wanted, control);
   adapt_to_pictures(run, control);
-  const auto workspace = make_workspace(run, choice);
+  const auto workspace = make_workspace(run, device_);
   const AnySampler sampler = make_sampler(run.light_field);
   const std::vector<int> partners =
       std::visit([&](const auto& s) { return s.partners(view_idx); }, sampler);

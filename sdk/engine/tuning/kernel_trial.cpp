@@ -145,10 +145,12 @@ std::unique_ptr<TrialBench> KernelTrial::reference() const {
       std::visit([&](const auto& s) { return make_reference_workspace(s, setup_); }, sampler_));
 }
 
-std::unique_ptr<TrialBench> KernelTrial::opencl(const std::string& device,
+std::unique_ptr<TrialBench> KernelTrial::opencl(const Device& device,
                                                 const opencl::TuningOverrides& overrides) const {
   return make_bench(std::visit(
-      [&](const auto& s) { return opencl::make_tuned_workspace(s, setup_, device, overrides); },
+      [&](const auto& s) {
+        return opencl::make_tuned_workspace(s, setup_, device.opened(), overrides);
+      },
       sampler_));
 }
 

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "gigaray/device.h"
 #include "gigaray/samplers/any_sampler.h"
 #include "opencl/opencl_workspace.h"
 
@@ -58,7 +59,7 @@ class KernelTrial {
   KernelTrial(const TrialShape& shape, const DepthOptions& options);
 
   std::unique_ptr<TrialBench> reference() const;
-  std::unique_ptr<TrialBench> opencl(const std::string& device,
+  std::unique_ptr<TrialBench> opencl(const Device& device,
                                      const opencl::TuningOverrides& overrides = {}) const;
 
   /// Makes ready what the kernel takes from earlier steps.

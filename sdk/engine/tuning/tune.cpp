@@ -79,12 +79,12 @@ class Judge {
     expected_ = check_.answer(*check_.reference(), kernel_);
   }
 
-  Agreement agreement(const std::string& device, const Tuning& setting) {
+  Agreement agreement(const Device& device, const Tuning& setting) {
     return KernelTrial::compare(
         kernel_, expected_, check_.answer(*check_.opencl(device, {{kernel_, setting}}), kernel_));
   }
 
-  double seconds(const std::string& device, const Tuning& setting) {
+  double seconds(const Device& device, const Tuning& setting) {
     const auto backend = timed_.opencl(device, {{kernel_, setting}});
     timed_.prepare(*backend, kernel_);
     double best = seconds_of_run(*backend);  // slower than the next: it completes the program
@@ -112,7 +112,7 @@ class Judge {
   std::vector<float> expected_;
 };
 
-TuneTrial try_setting(std::vector<std::unique_ptr<Judge>>& judges, const std::string& device,
+TuneTrial try_setting(std::vector<std::unique_ptr<Judge>>& judges, const Device& device,
                       const Tuning& setting) {
   TuneTrial trial;
   trial.parameters = setting;
@@ -154,7 +154,7 @@ std::vector<TuneResult> tune_device(const std::string& device, const RunControl&
     throw Error(ErrorCode::kIo,
                 "tuning can't be stored: the kernel cache is off; unset GIGARAY_CACHE or set "
                 "GIGARAY_CACHE_DIR to a folder");
-  const std::string selection = std::to_string(info.index);
+  const Device opened = Device::open(std::to_string(info.index));
   const auto& wanted = kernels.empty() ? KernelTrial::kernels() : kernels;
   std::vector<KernelTuning> tunable;
   for (KernelTuning& tuning : tuning_in_force(info))
@@ -172,7 +172,7 @@ std::vector<TuneResult> tune_device(const std::string& device, const RunControl&
     for (std::size_t k = 0; k < settings.size(); ++k) {
       control.progress("tune", double(i) + double(k) / double(settings.size()),
                        double(tunable.size()));
-      result.trials.push_back(try_setting(judges, selection, settings[k]));
+      result.trials.push_back(try_setting(judges, opened, settings[k]));
     }
     result.best = best_trial(result.trials);
     results.push_back(std::move(result));

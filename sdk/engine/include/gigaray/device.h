@@ -4,12 +4,16 @@
 
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "gigaray/error.h"
 
 namespace gigaray {
+namespace opencl {
+class Device;
+}
 
 enum class DeviceType { kCpu, kGpu, kOther };
 
@@ -47,6 +51,26 @@ std::vector<DeviceInfo> list_devices();
 /// environment variable GIGARAY_DEVICE; if that is empty too, the first GPU, else the first CPU,
 /// else the first device. Throws Error(kDevice) when there is none, listing what there is.
 DeviceInfo select_device(const std::string& selection = "");
+
+/// An open OpenCL device: its context, and the kernels that were built for it, which stay until the
+/// last copy is gone. Copies are cheap and are the same device. Thread-safe: any number of
+/// estimators may work on a device at once, each in a command queue of its own.
+class Device {
+ public:
+  /// selection: see select_device(). Opening again is allowed, but shares nothing. Throws
+  /// Error(kDevice).
+  static Device open(const std::string& selection = "");
+
+  /// The engine's own way. Not null.
+  explicit Device(std::shared_ptr<const opencl::Device> opened);
+
+  const DeviceInfo& info() const;
+  const std::string& selection() const;  ///< As stated; GIGARAY_DEVICE if that was empty.
+  const opencl::Device& opened() const { return *opened_; }  ///< For the engine.
+
+ private:
+  std::shared_ptr<const opencl::Device> opened_;
+};
 
 /// Compiled kernels on disk. The folder is $GIGARAY_CACHE_DIR, else $XDG_CACHE_HOME/gigaray, else
 /// ~/.cache/gigaray; GIGARAY_CACHE=off disables it.

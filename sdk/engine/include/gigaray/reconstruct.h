@@ -119,7 +119,8 @@ class Reconstruction {
 /// The result does not depend on memory, bands or threads; twice the same input gives the same
 /// bits. A direction that is only assumed (LightField::sign_is_assumed) is checked as
 /// check_direction() does, with a message; Reconstruction::light_field() has the positions that
-/// were found. Throws Error: kInvalidArgument (options; a direction that is only assumed and that
+/// were found. Opens the device for this one call; Estimator keeps it open. Throws Error:
+/// kInvalidArgument (options; a direction that is only assumed and that
 /// the pictures don't tell), kBadInput (light field), kDevice, kIo, kOutOfMemory, kCancelled.
 Reconstruction reconstruct(const LightField& light_field, const DepthOptions& options,
                            const BackendChoice& backend, const RunControl& control);

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Gigaray authors
+#pragma once
+
+#include <optional>
+
+#include "gigaray/device.h"
+#include "gigaray/reconstruct.h"
+
+namespace gigaray {
+
+/// reconstruct() and probe() for many light fields: the device is opened once, and kernels that a
+/// call built are there for the next one. What is computed is the same, to the bit. Copies are
+/// cheap and share the device.
+///
+/// Thread-safe: one estimator, or several on one device or on several, may be called from any
+/// number of threads at once. Calls at once share the device's compute units, and each takes the
+/// memory of its own DepthOptions::memory_bytes, on the host and on the device. A RunControl that
+/// several of them get must have sinks that are thread-safe; cancelling it ends them all.
+class Estimator {
+ public:
+  /// With OpenCL kernels on a device. The default throws what Device::open() throws.
+  explicit Estimator(Device device = Device::open());
+
+  /// With the plain loops that the kernels are checked against: slow, needs no device.
+  static Estimator reference();
+
+  /// The device and backend of a choice. Throws Error: kInvalidArgument (no such backend), kDevice.
+  static Estimator of(const BackendChoice& choice);
+
+  /// As gigaray::reconstruct(), and throws what that throws.
+  Reconstruction reconstruct(const LightField& light_field, const DepthOptions& options,
+                             const RunControl& control) const;
+
+  /// As gigaray::probe(), and throws what that throws.
+  ScoreCurve probe(const LightField& light_field, const DepthOptions& options, int view_idx, int u,
+                   int v, const RunControl& control) const;
+
+  const std::optional<Device>& device() const { return device_; }  ///< Empty: the reference.
+
+ private:
+  explicit Estimator(std::nullopt_t) {}
+
+  std::optional<Device> device_;
+};
+
+}  // namespace gigaray
