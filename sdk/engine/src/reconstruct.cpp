@@ -170,7 +170,8 @@ std::string kernel_job(const Prepared& run, const std::string& device) {
   return text.str();
 }
 
-/// What a device has; where there is none the run will say so, and a forecast is one for a usual one.
+/// What a device has; where there is none the run will say so, and a forecast is one for a usual
+/// one.
 DeviceLimits limits_of(const std::string& device) {
   try {
     const DeviceInfo info = select_device(device);
@@ -184,8 +185,8 @@ DeviceLimits limits_of(const std::string& device) {
 /// is stated; none: the reference.
 MemoryPlan plan_run(const Prepared& run, const std::optional<std::string>& device) {
   const DeviceLimits host{0, std::numeric_limits<double>::infinity(), true};
-  MemoryPlan plan = plan_memory(run.light_field, run.options, run.hypotheses,
-                                device ? limits_of(*device) : host);
+  MemoryPlan plan =
+      plan_memory(run.light_field, run.options, run.hypotheses, device ? limits_of(*device) : host);
   if (!device || opencl::kernels_are_ready(kernel_job(run, *device))) {
     plan.forecast.memory_bytes -= plan.compiler_bytes;
     plan.forecast.memory_all_bytes -= plan.compiler_bytes;
@@ -362,6 +363,7 @@ ScoreCurve Estimator::probe(const LightField& light_field, const DepthOptions& o
     }
   workspace->put(window, todo);
   workspace->put(tested, bounds);
+  workspace->hold_scores(0, strip);
   if (run.options.score.gradient)
     workspace->robust_score(view_idx, strip, todo, bounds, ScoreViews::kAll);
   else
