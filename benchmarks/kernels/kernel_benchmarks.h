@@ -27,7 +27,7 @@ class KernelCase {
       : kernel_(std::move(kernel)), shape_(shape), options_(options) {}
 
   bool make_ready();  ///< Whether this was the first use.
-  void run() { trial_->run(*backend_, kernel_); }
+  void run() { trial_->run(*bench_, kernel_); }
 
   const std::string& kernel() const { return kernel_; }
   const TrialShape& shape() const { return shape_; }
@@ -39,7 +39,7 @@ class KernelCase {
   TrialShape shape_;
   DepthOptions options_;
   std::optional<KernelTrial> trial_;
-  std::unique_ptr<Backend> backend_;
+  std::unique_ptr<TrialBench> bench_;
 };
 
 }  // namespace gigaray::benchmarks

@@ -11,7 +11,7 @@ MachineLimit& machine() {
 }
 
 bool KernelCase::make_ready() {
-  if (backend_) return false;
+  if (bench_) return false;
   KernelTrial check(KernelTrial::check_shape(shape_), options_);
   const auto expected = check.answer(*check.reference(), kernel_);
   const auto actual = check.answer(*check.opencl(""), kernel_);
@@ -22,10 +22,10 @@ bool KernelCase::make_ready() {
                                         " % of the values differ from the reference, by up to " +
                                         std::to_string(agreement.largest));
   trial_.emplace(shape_, options_);
-  auto backend = trial_->opencl("");
-  trial_->prepare(*backend, kernel_);
-  trial_->run(*backend, kernel_);
-  backend_ = std::move(backend);
+  auto bench = trial_->opencl("");
+  trial_->prepare(*bench, kernel_);
+  trial_->run(*bench, kernel_);
+  bench_ = std::move(bench);
   return true;
 }
 
