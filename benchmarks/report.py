@@ -25,6 +25,7 @@ import tables  # noqa: E402
 AGGREGATES = ["min", "median", "max", "mean", "stddev", "cv"]
 KEPT_CONTEXT = ["date", "num_cpus", "mhz_per_cpu", "load_avg", "gigaray_version", "device",
                 "device_type", "compute_units", "platform", "driver"]
+SCORES = ("density_score", "robust_score")
 NOT_FIGURES = {"name", "family_index", "per_family_instance_index", "run_name", "run_type",
                "repetitions", "repetition_index", "threads", "aggregate_name", "aggregate_unit",
                "iterations", "time_unit"}
@@ -68,9 +69,9 @@ def score_table(report):
     rate, share = "G sample-iterations/s", "share of FMA limit"
     rows = []
     for name, f in report["benchmarks"].items():
-        if not name.startswith("density_score"):
+        if not name.startswith(SCORES):
             continue
-        rows.append([name.removeprefix("density_score/"), value(f, rate, "max", 2),
+        rows.append([name.partition("/")[2], value(f, rate, "max", 2),
                      value(f, rate, "median", 2), value(f, "G FMA/s before", "max", 0),
                      value(f, "G FMA/s before", "median", 0), value(f, share, "max", 2),
                      value(f, share, "median", 2)])
@@ -81,7 +82,7 @@ def score_table(report):
 def step_table(report):
     rows = []
     for name, f in report["benchmarks"].items():
-        if name.startswith("density_score"):
+        if name.startswith(SCORES):
             continue
         rows.append([name, value(f, "M/s", "max", 1), value(f, "M/s", "median", 1),
                      value(f, "GB/s", "max", 2), value(f, "copy GB/s", "median", 1)])

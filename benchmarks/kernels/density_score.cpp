@@ -18,8 +18,8 @@ struct Rig {
   int views_s, views_t;
 };
 
-std::string name_of(const char* preset, const Rig& rig) {
-  return std::string("density_score/") + preset + (rig.views_t > 1 ? "/4D/" : "/3D/") +
+std::string name_of(const char* kernel_and_preset, const Rig& rig) {
+  return std::string(kernel_and_preset) + (rig.views_t > 1 ? "/4D/" : "/3D/") +
          std::to_string(rig.views_s * rig.views_t);
 }
 
@@ -98,7 +98,7 @@ void declare_paper(const Rig& rig) {
                   "would count work that was not done");
     time_score(state, *score, kIterations + 1, kFma);
   };
-  repeated(benchmark::RegisterBenchmark(name_of("paper", rig).c_str(), run))
+  repeated(benchmark::RegisterBenchmark(name_of("density_score/paper", rig).c_str(), run))
       ->Unit(benchmark::kMillisecond);
 }
 
@@ -110,12 +110,12 @@ void declare_auto(const Rig& rig) {
   DepthOptions options = auto_options();
   options.score.bandwidth = 0.1f;
   options.score.gradient_bandwidth = 0.02f;
-  auto score = std::make_shared<KernelCase>("density_score", shape_of(rig), options);
+  auto score = std::make_shared<KernelCase>("robust_score", shape_of(rig), options);
   const auto run = [score, taps](benchmark::State& state) {
     score->make_ready();
     time_score(state, *score, 1, taps + 10);
   };
-  repeated(benchmark::RegisterBenchmark(name_of("auto", rig).c_str(), run))
+  repeated(benchmark::RegisterBenchmark(name_of("robust_score/auto", rig).c_str(), run))
       ->Unit(benchmark::kMillisecond);
 }
 

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cstdio>
 #include <exception>
+#include <string>
+#include <vector>
 
 #include "gigaray/device.h"
 
@@ -13,6 +15,13 @@ namespace gigaray::benchmarks {
 int run_program(int argc, char** argv,
                 const std::function<void(const std::vector<std::string>&)>& declare) {
   try {
+    // The default of a flag, which a later one overrides; Repetitions() would win over it.
+    std::string repetitions = "--benchmark_repetitions=5";
+    std::vector<char*> all(argv, argv + argc);
+    all.insert(all.begin() + 1, repetitions.data());
+    argc = int(all.size());
+    all.push_back(nullptr);
+    argv = all.data();
     benchmark::Initialize(&argc, argv);
     const DeviceInfo device = select_device();
     benchmark::AddCustomContext("gigaray_version", GIGARAY_VERSION);
@@ -35,7 +44,6 @@ benchmark::internal::Benchmark* repeated(benchmark::internal::Benchmark* benchma
   using Values = std::vector<double>;
   return benchmark->MeasureProcessCPUTime()
       ->UseRealTime()
-      ->Repetitions(5)
       ->ReportAggregatesOnly()
       ->ComputeStatistics("min",
                           [](const Values& v) { return *std::min_element(v.begin(), v.end()); })

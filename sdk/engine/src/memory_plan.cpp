@@ -123,6 +123,11 @@ class Planner {
     return std::min(std::clamp(memory / 12, least_volume_, std::max(most, least_volume_)),
                     all_rows_);
   }
+  /// The least that keeps the first look's scores for the slanted one, in strips of some blocks.
+  double keeping_volume() const {
+    const double row = volume_row_bytes(light_field_.width, hypotheses_);
+    return std::min(row * (score_lag(0) + 2 * kScanlineBlock), all_rows_);
+  }
   double least_volume() const { return std::min(least_volume_, all_rows_); }
 
   /// Whatever the bands are.
@@ -358,7 +363,9 @@ MemoryPlan plan_memory(const LightField& light_field, const DepthOptions& option
     in_memory = planner.plan(limit, usual, place);
     if (in_memory) break;
   }
-  if (!in_memory && !in_files) in_files = planner.plan(limit, planner.least_volume(), Place::kFile);
+  for (const double volume : {planner.keeping_volume(), planner.least_volume()})
+    if (!in_memory && !in_files && volume < usual)
+      in_files = planner.plan(limit, volume, Place::kFile);
   if (!in_memory && !in_files && planner.least_limit() <= limit)
     throw Error(ErrorCode::kOutOfMemory,
                 "the rays of one row reach so much of " + std::to_string(light_field.num_views()) +
