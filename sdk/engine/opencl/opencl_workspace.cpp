@@ -21,8 +21,8 @@ std::unique_ptr<Workspace> make_tuned_workspace(const S& sampler, const Workspac
     if (lacks("FP64")) device.hide_fp64();
     if (lacks("INT64_ATOMICS")) device.hide_int64_atomics();
   }
-  return std::make_unique<DeviceWorkspace>(twin_of(sampler, setup.hypotheses), setup,
-                                           device, overrides);
+  return std::make_unique<DeviceWorkspace>(twin_of(sampler, setup.hypotheses), setup, device,
+                                           overrides);
 }
 
 template std::unique_ptr<Workspace> make_tuned_workspace(const EpiSampler&, const WorkspaceSetup&,
