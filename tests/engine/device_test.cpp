@@ -98,6 +98,16 @@ TEST(Devices, FailedCallCarriesItsTextAndTheErrorsName) {
   EXPECT_EQ(error_of([] { check_cl(CL_OUT_OF_HOST_MEMORY, "x"); }).code(), ErrorCode::kOutOfMemory);
 }
 
+TEST(Devices, WhatIsHiddenStaysHiddenInAnotherQueue) {
+  Device device = Device::open();
+  device.hide_fp64();
+  device.hide_int64_atomics();
+  for (const Device& other : {device, device.with_own_queue()}) {
+    EXPECT_FALSE(other.info().has_fp64);
+    EXPECT_FALSE(other.info().has_int64_atomics);
+  }
+}
+
 using Buffers = CacheFixture;
 
 TEST_F(Buffers, RoundTripAtAnOffsetAndClear) {

@@ -162,7 +162,11 @@ Device Device::open(const std::string& selection) {
   return make(std::move(found.device), std::move(found.info), stated_device(selection));
 }
 
-Device Device::with_own_queue() const { return Device(opened_); }
+Device Device::with_own_queue() const {
+  Device other(opened_);
+  other.seen_ = seen_;
+  return other;
+}
 
 std::vector<Device> Device::split(int parts) const {
   GIGARAY_CHECK(parts > 0);

@@ -132,7 +132,7 @@ void DeviceWorkspace::load_band(RowRange rows, const std::vector<int>& views,
   band_.row_end = rows.end;
   if (at_ != source.at) {
     at_ = source.at;
-    at_buffer_ = Buffer(device_, std::span<const int>(at_));
+    at_buffer_ = upload(at_);
   }
   const int bits = source.encoding == BandEncoding::kBits8    ? 8
                    : source.encoding == BandEncoding::kBits16 ? 16
@@ -203,14 +203,14 @@ DeviceWorkspace::OwnPixels DeviceWorkspace::reference_pixels(int ref) const {
 }
 
 const DeviceWorkspace::ViewSet& DeviceWorkspace::view_set(int ref, ScoreViews views) {
-  ViewSet& set = view_sets_[views];
-  if (set.ref == ref) return set;
-  const std::vector<std::uint8_t> members =
-      band_views_.score_members(place_of(places_, ref), views);
-  set.buffer = Buffer(device_, std::span<const std::uint8_t>(members));
-  set.used = int(members.size() - std::count(members.begin(), members.end(), 0));
-  set.ref = ref;
-  return set;
+  const auto [found, is_new] = view_sets_.try_emplace({views, ref});
+  if (is_new) {
+    const std::vector<std::uint8_t> members =
+        band_views_.score_members(place_of(places_, ref), views);
+    found->second = {upload(members),
+                     int(members.size() - std::count(members.begin(), members.end(), 0))};
+  }
+  return found->second;
 }
 
 StripParams DeviceWorkspace::strip(int view, RowRange rows) const {
@@ -225,17 +225,26 @@ void DeviceWorkspace::see_views(const std::vector<int>& views) {
   band_views_ = all_views_.of_band(views, level_);
   std::vector<int> active;
   for (const int view : active_views_) active.push_back(places_[view]);
-  if (!active.empty()) active_buffer_ = Buffer(device_, std::span<const int>(active));
-  rays_ref_ = shifts_ref_ = -1;
-  for (auto& [which, set] : view_sets_) set.ref = -1;
+  if (!active.empty()) active_buffer_ = upload(active);
+  shifts_ref_ = -1;
+  rays_.clear();
+  view_sets_.clear();
+  if (int(views.size()) < all_views_.num_views) return;
+  // Every view is compared with all others: their tables go up together, and no view waits later.
+  for (const int ref : active_views_) {
+    rays(ref);
+    if (!setup_.options.score.gradient) continue;
+    view_set(ref, ScoreViews::kAll);
+    if (level_ > 0) continue;
+    view_set(ref, ScoreViews::kFirst);
+    if (setup_.options.support.half_planes) view_set(ref, ScoreViews::kHalfPlanes);
+  }
 }
 
 Buffer& DeviceWorkspace::rays(int ref) {
-  if (rays_ref_ == ref) return rays_buffer_;
-  const std::vector<float> table = band_views_.ray_table(place_of(places_, ref));
-  rays_buffer_ = Buffer(device_, std::span<const float>(table));
-  rays_ref_ = ref;
-  return rays_buffer_;
+  const auto [found, is_new] = rays_.try_emplace(ref);
+  if (is_new) found->second = upload(band_views_.ray_table(place_of(places_, ref)));
+  return found->second;
 }
 
 Buffer& DeviceWorkspace::ways(int ref) {

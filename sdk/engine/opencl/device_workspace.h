@@ -151,7 +151,6 @@ class DeviceWorkspace : public Workspace {
   struct ViewSet {
     Buffer buffer;
     int used = 0;
-    int ref = -1;
   };
   const ViewSet& view_set(int ref, ScoreViews views);
 
@@ -174,6 +173,12 @@ class DeviceWorkspace : public Workspace {
   std::string score_defines() const;
   /// From now on the band holds these views.
   void see_views(const std::vector<int>& views);
+  template <class T>
+  Buffer upload(const std::vector<T>& values) {
+    traffic_.bytes_up += values.size() * sizeof(T);
+    ++traffic_.waits;
+    return Buffer(device_, std::span<const T>(values));
+  }
   /// The twin's table for rays of `ref`.
   Buffer& rays(int ref);
   /// How kernels find samples: shifts from `ref` to all views under all hypotheses, or the table.
@@ -225,9 +230,9 @@ class DeviceWorkspace : public Workspace {
   BandParams band_{};
   int level_ = 0;
   std::vector<int> active_views_, loaded_views_;
-  std::vector<int> places_;              ///< of all views among loaded_views_
-  bool is_masked_ = false;               ///< some pixels of the band may be
-  int rays_ref_ = -1, shifts_ref_ = -1;  ///< The views that rays_buffer_ and shifts_ are for.
+  std::vector<int> places_;  ///< of all views among loaded_views_
+  bool is_masked_ = false;   ///< some pixels of the band may be
+  int shifts_ref_ = -1;      ///< the view that shifts_ are for
   RowRange score_rows_;
   /// Scores as they come, and of which rows.
   struct RawScores {
@@ -242,9 +247,11 @@ class DeviceWorkspace : public Workspace {
   Traffic traffic_;
   cl::Event pace_;  ///< of the last keep_pace()
 
-  Buffer table_buffer_, active_buffer_, rays_buffer_, at_buffer_;
+  Buffer table_buffer_, active_buffer_, at_buffer_;
   std::vector<int> at_;  ///< what at_buffer_ holds
-  std::map<ScoreViews, ViewSet> view_sets_;
+  /// By reference view, for the views of the band.
+  std::map<int, Buffer> rays_;
+  std::map<std::pair<ScoreViews, int>, ViewSet> view_sets_;
   Scratch shifts_, together_, lonely_, packed_, counts_, jumps_, near_, grown_, grown_bounds_,
       intervals_, band_memory_, taps_, supported_scores_, path_scores_;
 };

@@ -233,7 +233,8 @@ std::vector<std::vector<int>> Pipeline::view_groups() const {
 
 void Pipeline::find_edges_and_downsample() {
   LevelState& state = levels_[level_];
-  if (state.mask.empty() && is_last_level()) return;
+  // One band serves the views too, so it is loaded in any case.
+  if (state.mask.empty() && is_last_level() && bands().size() > 1) return;
   for (const RowRange band : bands())
     for (const std::vector<int>& group : view_groups()) {
       RowRange rows = grown(band, plan_.levels[level_].halo, shape().height);

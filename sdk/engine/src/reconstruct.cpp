@@ -170,32 +170,32 @@ std::string kernel_job(const Prepared& run, const std::string& device) {
   return text.str();
 }
 
-/// What a device has; where there is none the run will say so, and a forecast is one for a usual
-/// one.
+DeviceLimits limits_of(const DeviceInfo& info) {
+  return {double(info.global_memory), double(info.max_allocation), info.shares_host_memory};
+}
+
+/// Of a device that is not open. Where there is none the run will say so, and a forecast is one for
+/// a usual one.
 DeviceLimits limits_of(const std::string& device) {
   try {
-    const DeviceInfo info = select_device(device);
-    return {double(info.global_memory), double(info.max_allocation), info.shares_host_memory};
+    return limits_of(select_device(device));
   } catch (const Error&) {
     return {};
   }
 }
 
+constexpr DeviceLimits kHost{0, std::numeric_limits<double>::infinity(), true};
+
 /// The plan, with the compiler in the forecast where there is something to compile. device: as it
 /// is stated; none: the reference.
-MemoryPlan plan_run(const Prepared& run, const std::optional<std::string>& device) {
-  const DeviceLimits host{0, std::numeric_limits<double>::infinity(), true};
-  MemoryPlan plan =
-      plan_memory(run.light_field, run.options, run.hypotheses, device ? limits_of(*device) : host);
+MemoryPlan plan_run(const Prepared& run, const std::optional<std::string>& device,
+                    const DeviceLimits& limits) {
+  MemoryPlan plan = plan_memory(run.light_field, run.options, run.hypotheses, limits);
   if (!device || opencl::kernels_are_ready(kernel_job(run, *device))) {
     plan.forecast.memory_bytes -= plan.compiler_bytes;
     plan.forecast.memory_all_bytes -= plan.compiler_bytes;
   }
   return plan;
-}
-
-std::optional<std::string> stated(const std::optional<Device>& device) {
-  return device ? std::optional(device->selection()) : std::nullopt;
 }
 
 std::unique_ptr<Workspace> make_workspace(const Prepared& run,
@@ -247,8 +247,12 @@ Reconstruction Estimator::reconstruct(const LightField& light_field, const Depth
     Prepared run = prepare(given, wanted, control);
     impl->light_field = std::move(given);
     impl->light_field.pixels = light_field.pixels;
-    impl->plan = plan_run(run, stated(device_));
-    if (device_) job = kernel_job(run, device_->selection());
+    if (device_) {
+      job = kernel_job(run, device_->selection());
+      impl->plan = plan_run(run, device_->selection(), limits_of(device_->info()));
+    } else {
+      impl->plan = plan_run(run, std::nullopt, kHost);
+    }
     adapt_to_pictures(run, control);
     seen = run.light_field;
     impl->options = run.options;
@@ -273,9 +277,10 @@ Reconstruction Estimator::reconstruct(const LightField& light_field, const Depth
 
 Forecast forecast(const LightField& light_field, const DepthOptions& options,
                   const BackendChoice& backend) {
-  std::optional<std::string> device;
-  if (backend.backend != "reference") device = opencl::stated_device(backend.device);
-  return plan_run(prepare(light_field, options, RunControl{}), device).forecast;
+  const Prepared run = prepare(light_field, options, RunControl{});
+  if (backend.backend == "reference") return plan_run(run, std::nullopt, kHost).forecast;
+  const std::string device = opencl::stated_device(backend.device);
+  return plan_run(run, device, limits_of(device)).forecast;
 }
 
 double least_memory_bytes(const LightField& light_field, const DepthOptions& options) {

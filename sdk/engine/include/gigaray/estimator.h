@@ -14,8 +14,9 @@ namespace gigaray {
 /// cheap and share the device.
 ///
 /// Thread-safe: one estimator, or several on one device or on several, may be called from any
-/// number of threads at once. Calls at once share the device's compute units, and each takes the
-/// memory of its own DepthOptions::memory_bytes, on the host and on the device. A RunControl that
+/// number of threads at once. Calls at once share the device's compute units. Each plans as if it
+/// were alone: within its own DepthOptions::memory_bytes, and on a device with memory of its own
+/// with nine tenths of that; together they must fit, else Error(kOutOfMemory). A RunControl that
 /// several of them get must have sinks that are thread-safe; cancelling it ends them all.
 class Estimator {
  public:
