@@ -75,10 +75,14 @@ class HostSteps {
   }
   void density_score(int ref, RowRange rows, const StripMap<std::uint8_t>& todo,
                      const StripMap<HypothesisBounds>& bounds) {
+    workspace_->hold_scores(0, {});  // what it has goes
+    workspace_->hold_scores(0, rows);
     workspace_->density_score(ref, rows, up(todo), up(bounds));
   }
   void robust_score(int ref, RowRange rows, const StripMap<std::uint8_t>& todo,
                     const StripMap<HypothesisBounds>& bounds, ScoreViews views) {
+    workspace_->hold_scores(0, {});  // what it has goes
+    workspace_->hold_scores(0, rows);
     workspace_->robust_score(ref, rows, up(todo), up(bounds), views);
   }
   /// means: row v · channels + c holds channel c of row v.
@@ -92,6 +96,8 @@ class HostSteps {
   void replace_reference(const StripMap<float>& means) {
     means_ = workspace_->make_map<float>(shape_.width, {0, shape_.height * channels()});
     workspace_->put(means, means_);
+    workspace_->mean_gradients(
+        {means.rows().begin / channels(), means.rows().end / channels()}, means_);
     workspace_->replace_reference(means_);
   }
   void restore_reference() { workspace_->restore_reference(); }

@@ -100,7 +100,8 @@ struct PlannedRun {
   std::vector<std::vector<float>> maps;  // disparity, confidence and level of every view
 
   PlannedRun(const LightField& light_field, DepthOptions options, const std::string& backend_name,
-             int band_rows, bool least_strips, Place place, const std::string& work_folder) {
+             int band_rows, bool least_strips, bool keeps_scores, Place place,
+             const std::string& work_folder) {
     const HypothesisRange hypotheses{options.disparity->min, options.disparity->max,
                                      options.hypotheses};
     options.memory_bytes = 4e9;
@@ -111,7 +112,9 @@ struct PlannedRun {
       const int least = blocks ? kScanlineBlock : 1;
       const int rows = (band_rows + least - 1) / least * least;
       level.band_rows = std::min(rows, level.shape.height);
-      if (least_strips) level.strip_rows = least;
+      level.window_rows = keeps_scores ? level.band_rows : 0;
+      level.strip_rows = least_strips ? least : level.band_rows;
+      level.keeps_scores = keeps_scores;
     }
     plan.work_folder = work_folder;
     plan.place = place;
@@ -153,10 +156,10 @@ struct PlannedRun {
 void expect_bands_alike(const std::string& backend, const LightField& light_field,
                         const DepthOptions& options) {
   const ScopedFolder work;
-  const PlannedRun expected(light_field, options, backend, 1000, false, Place::kDevice, "");
+  const PlannedRun expected(light_field, options, backend, 1000, false, true, Place::kDevice, "");
   EXPECT_GT(expected.tuples.size(), std::size_t(light_field.width) * light_field.height / 2);
   for (const int band_rows : {1, 5, 8, 19, 50})
-    PlannedRun(light_field, options, backend, band_rows, band_rows == 8,
+    PlannedRun(light_field, options, backend, band_rows, band_rows == 8, band_rows != 19,
                band_rows == 5    ? Place::kFile
                : band_rows == 19 ? Place::kHost
                                  : Place::kDevice,

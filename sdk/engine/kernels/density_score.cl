@@ -7,7 +7,7 @@
 //   bounds  [v][pitch] (first, last) hypothesis to test
 //   ways    SHIFT_ALIKE 1: [hypothesis][view], from block_shifts; 0: the ray table
 //   source  where samples come from: the band, or its taps (SHIFT_ALIKE 0)
-//   scores  [row][u][hypothesis]; -1 where too few views see the point. Hypotheses outside the
+//   scores  [v - scores_begin][u][hypothesis]; -1 where too few views see the point. Hypotheses outside the
 //           union of a block's bounds are not written.
 //   staged  local memory, 4 vectors per view: the samples, read once and used by every mean-shift
 //           iteration (STAGE 1: CPUs; with STAGE 0 they are fetched again each time)
@@ -188,7 +188,8 @@ __kernel void density_score(__global const float* band, __global const float* so
                             const BandParams p, const StripParams strip, __global const Way* ways,
                             const HypothesisParams hypotheses,
                             __global const uchar* todo, __global const ushort2* bounds,
-                            const float bandwidth, const int min_views, const float floor_views, __global float* scores, __local vfloat* staged) {
+                            const float bandwidth, const int min_views, const float floor_views, __global float* scores,
+                            const int scores_begin, __local vfloat* staged) {
   const int u = get_global_id(0) * LANES, row = get_global_id(1);
   if (u >= strip.width) return;
   const int v = strip.row_begin + row;
@@ -204,7 +205,7 @@ __kernel void density_score(__global const float* band, __global const float* so
   for (int c = 0; c < 3; ++c) own[c] = VLOAD(here + c * p.stride);
   const float inverse_h = 1.0f / bandwidth;
 
-  __global float* column = scores + score_index(strip, hypotheses, row, u);
+  __global float* column = scores + score_index(strip, hypotheses, v - scores_begin, u);
   for (int i = first; i <= last; ++i) {
     __global const Way* here_ways = WAYS_OF(ways, i, p.num_views);
     const float h = hypotheses.min + i * hypotheses.step;
@@ -238,7 +239,8 @@ __kernel void density_score_packed(
     __global const BlockShift* shifts, const HypothesisParams hypotheses,
     __global const int* packed, __global const int* places, __global const ushort2* bounds,
     const float bandwidth, const int min_views, const float floor_views, __global float* scores,
-    __local vfloat* staged) {
+    const int scores_begin, __local vfloat* staged) {
+  const int first_row = strip.row_begin - scores_begin;
   const int begin = get_global_id(0) * LANES, size = places[strip.row_end - strip.row_begin];
   if (begin >= size) return;
   int rows[LANES], columns[LANES];
@@ -321,10 +323,10 @@ __kernel void density_score_packed(
     VSTORE(score_of(density, count, min_views, floor_views), score);
     for (int lane = 0; lane < LANES; ++lane)
       if (i >= tested[lane].x && i <= tested[lane].y)
-        scores[score_index(strip, hypotheses, rows[lane], columns[lane]) + i] = score[lane];
+        scores[score_index(strip, hypotheses, first_row + rows[lane], columns[lane]) + i] = score[lane];
   }
   for (int lane = 0; lane < LANES; ++lane)
-    repeat_ends(scores + score_index(strip, hypotheses, rows[lane], columns[lane]), hypotheses,
+    repeat_ends(scores + score_index(strip, hypotheses, first_row + rows[lane], columns[lane]), hypotheses,
                 tested[lane].x, tested[lane].y);
 }
 #endif

@@ -229,7 +229,7 @@ __kernel void robust_score(__global const float* band, const BandParams p, const
                            __global const ushort2* bounds, __global const uchar* members,
                            const float bandwidth, const float gradient_bandwidth,
                            const float gradient_share, const int min_views, const float floor_views,
-                           __global float* scores) {
+                           __global float* scores, const int scores_begin) {
   const int u = get_global_id(0) * UNITS * LANES, row = get_global_id(1);
   if (u >= strip.width) return;
   const int v = strip.row_begin + row;
@@ -297,13 +297,13 @@ __kernel void robust_score(__global const float* band, const BandParams p, const
             score = max(score, score_of(block->sums[part][UNIT(j)],
                                         block->whole[part] + block->counts[part][UNIT(j)], min_views,
                                         floor_views));
-          store_scores(scores + score_index(strip, hypotheses, row, u + j * LANES), hypotheses,
+          store_scores(scores + score_index(strip, hypotheses, v - scores_begin, u + j * LANES), hypotheses,
                        &tested[UNIT(j)], begin + i, score);
         }
   }
   for (int r = 0; r < num_runs; ++r)
     for (int j = runs[UNIT(r)].first; j <= runs[UNIT(r)].last; ++j)
-      repeat_ends_of_lanes(scores + score_index(strip, hypotheses, row, u + j * LANES), hypotheses,
+      repeat_ends_of_lanes(scores + score_index(strip, hypotheses, v - scores_begin, u + j * LANES), hypotheses,
                            &tested[UNIT(j)]);
 }
 
@@ -316,7 +316,7 @@ __kernel void robust_score(__global const float* taps, const BandParams p, const
                            __global const ushort2* bounds, __global const uchar* members,
                            const float bandwidth, const float gradient_bandwidth,
                            const float gradient_share, const int min_views, const float floor_views,
-                           __global float* scores) {
+                           __global float* scores, const int scores_begin) {
   const int row = get_global_id(1), v = strip.row_begin + row;
   for (int j = 0; j < UNITS; ++j) {
     const int u = (get_global_id(0) * UNITS + j) * LANES;
@@ -330,7 +330,7 @@ __kernel void robust_score(__global const float* taps, const BandParams p, const
     UNROLL
     for (int c = 0; c < CHANNELS; ++c) own[c] = VLOAD(here + c * p.stride);
     const float inverse_h = 1.0f / bandwidth;
-    __global float* column = scores + score_index(strip, hypotheses, row, u);
+    __global float* column = scores + score_index(strip, hypotheses, v - scores_begin, u);
     for (int i = block.x; i <= block.y; ++i) {
       const float h = hypotheses.min + i * hypotheses.step;
       vfloat sums[PARTS], counts[PARTS];

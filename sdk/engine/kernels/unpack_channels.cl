@@ -72,9 +72,10 @@ __kernel void interleave_taps(__global const float* band, const BandParams p, __
 // gx, gy: half the difference of the neighbours' channel means; at the border the pixel itself
 // takes the missing neighbour's place. Rows at the edge of a band that is not the picture's edge
 // get a one-sided gy: the halo of a band includes one row for that.
-__kernel void unpack_gradients(const BandParams p, __global float* band) {
+// first_row: of the band, where the work-items begin.
+__kernel void unpack_gradients(const BandParams p, const int first_row, __global float* band) {
 #if CHANNELS == 5
-  const int view = get_global_id(0), row = get_global_id(1);
+  const int view = get_global_id(0), row = first_row + get_global_id(1);
   const int rows = p.row_end - p.row_begin;
   const size_t row_step = (size_t)p.num_views * CHANNELS * p.stride;
   __global float* here =

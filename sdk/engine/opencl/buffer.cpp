@@ -115,6 +115,11 @@ void Buffer::read_bytes(void* data, std::size_t bytes, std::size_t offset, cl_bo
   GIGARAY_CL(queue_.enqueueReadBuffer(memory_, blocking, offset, bytes, data));
 }
 
+void Buffer::copy_from(const Buffer& other, std::size_t from, std::size_t to, std::size_t bytes) {
+  GIGARAY_CHECK(from + bytes <= other.bytes_ && to + bytes <= bytes_);
+  GIGARAY_CL(queue_.enqueueCopyBuffer(other.memory_, memory_, from, to, bytes));
+}
+
 void Buffer::clear() { GIGARAY_CL(queue_.enqueueFillBuffer(memory_, cl_uchar(0), 0, bytes_)); }
 
 Kernel::Kernel(const Device& device, const cl::Program& program, const std::string& name)

@@ -57,6 +57,8 @@ class Buffer {
 
   /// Sets every byte to 0. Does not block.
   void clear();
+  /// Copies bytes of another buffer, or of another part of this one. Does not block.
+  void copy_from(const Buffer& other, std::size_t from, std::size_t to, std::size_t bytes);
 
  private:
   void write_bytes(const void* data, std::size_t bytes, std::size_t offset);

@@ -13,12 +13,42 @@ constexpr int kScanlineMargin = 16;
 
 }  // namespace
 
+void DeviceWorkspace::hold_scores(int volume, RowRange rows) {
+  RawScores& raw = volumes_[volume];
+  const RowRange kept{std::max(rows.begin, raw.rows.begin), std::min(rows.end, raw.rows.end)};
+  GIGARAY_CHECK(kept.size() <= 0 || rows.begin >= raw.rows.begin);
+  const std::size_t row_bytes = score_offset(1) - score_offset(0);
+  if (kept.size() <= 0) {
+    raw.scores.at_least(device_, volume_bytes(rows));
+  } else if (volume_bytes(rows) > raw.scores.bytes) {
+    Scratch larger;
+    larger.at_least(device_, volume_bytes(rows));
+    larger.buffer.copy_from(raw.scores.buffer, score_offset(kept.begin - raw.rows.begin),
+                            score_offset(kept.begin - rows.begin), kept.size() * row_bytes);
+    raw.scores = std::move(larger);
+  } else if (const int shift = rows.begin - raw.rows.begin; shift > 0) {
+    // Pieces that don't overlap what they replace.
+    for (int v = kept.begin; v < kept.end; v += shift)
+      raw.scores.buffer.copy_from(raw.scores.buffer, score_offset(v - raw.rows.begin),
+                                  score_offset(v - rows.begin),
+                                  std::min(shift, kept.end - v) * row_bytes);
+  }
+  raw.rows = rows;
+  raw_ = &raw;
+  winner_reads(raw.scores, rows);
+}
+
+std::size_t DeviceWorkspace::score_offset(int row) const {
+  return (GIGARAY_PAD + std::size_t(row) * band_.width * hypotheses_.pitch) * sizeof(float);
+}
+
 void DeviceWorkspace::density_score(int ref, RowRange rows, const Map<std::uint8_t>& todo,
                                     const Map<HypothesisBounds>& bounds) {
   const ScoreOptions& score = setup_.options.score;
   const std::string options = score_defines() + (score.stop_early ? "" : " -DMOVE_BOUND=0.0f");
   LaneKernel& kernel = lane_kernel("density_score", options);
-  Buffer& scores = raw_volume(rows);
+  Buffer& scores = raw_->scores.buffer;
+  winner_reads(raw_->scores, raw_->rows);
   const float floor_views = score.floor_views * float(band_.num_views);
   const int min_views = least_views(band_.num_views);
   const LocalMemory staged = kernel.vectors(kernel.staged ? kStagedVectors * band_.num_views : 1);
@@ -32,7 +62,7 @@ void DeviceWorkspace::density_score(int ref, RowRange rows, const Map<std::uint8
   }
   kernel.kernel.set_args(band_memory_.buffer, samples(), band_, strip(ref, rows), ways(ref),
                          hypotheses_, packs ? together_.buffer : buffer_of(todo), buffer_of(bounds),
-                         score.bandwidth, min_views, floor_views, scores, staged);
+                         score.bandwidth, min_views, floor_views, scores, raw_->rows.begin, staged);
   kernel.run(band_.width, rows.size());
   if (!packs) return;
   // As many as can stand alone; blocks beyond the end do nothing.
@@ -43,7 +73,7 @@ void DeviceWorkspace::density_score(int ref, RowRange rows, const Map<std::uint8
   run_rows("pack_lonely", rows, kernel.lanes, buffer_of(todo), counts_.buffer, packed);
   sparse.kernel.set_args(band_memory_.buffer, band_, strip(ref, rows), ways(ref), hypotheses_,
                          packed, counts_.buffer, buffer_of(bounds), score.bandwidth, min_views,
-                         floor_views, scores, staged);
+                         floor_views, scores, raw_->rows.begin, staged);
   sparse.run(int(most), 1);
 }
 
@@ -55,13 +85,14 @@ void DeviceWorkspace::robust_score(int ref, RowRange rows, const Map<std::uint8_
       lane_kernel("robust_score",
                   define("CUBIC", score.cubic) + define("HALF_PLANES", halves) + masked_define());
   const ViewSet& members = view_set(ref, views);
-  Buffer& scores = raw_volume(rows);
+  Buffer& scores = raw_->scores.buffer;
+  winner_reads(raw_->scores, raw_->rows);
   const float floor_views = (halves ? kLeastHalfPlane : score.floor_views) * float(members.used);
   const OwnPixels own = reference_pixels(ref);
   kernel.kernel.set_args(samples(), band_, strip(ref, rows), own.buffer, own.band, own.view,
                          ways(ref), hypotheses_, buffer_of(todo), buffer_of(bounds), members.buffer,
                          score.bandwidth, score.gradient_bandwidth, score.gradient_share,
-                         least_views(members.used), floor_views, scores);
+                         least_views(members.used), floor_views, scores, raw_->rows.begin);
   kernel.run(band_.width, rows.size());
 }
 
@@ -72,7 +103,7 @@ void DeviceWorkspace::score_support(int ref, RowRange rows, const Map<std::uint8
   LaneKernel& kernel = lane_kernel("score_support", define("RADIUS", support.radius));
   Buffer& supported = supported_scores_.at_least(device_, volume_bytes(rows));
   kernel.kernel.set_args(own.buffer, own.band, own_strip(own.view, rows), hypotheses_,
-                         buffer_of(todo), buffer_of(bounds), raw_scores_.buffer, raw_rows_.begin,
+                         buffer_of(todo), buffer_of(bounds), raw_->scores.buffer, raw_->rows.begin,
                          support.sigma_colour, support.sigma_space, supported);
   kernel.run_pixels(band_.width, rows.size());
   winner_reads(supported_scores_, rows);
@@ -87,8 +118,8 @@ void DeviceWorkspace::slanted_support(int ref, RowRange rows, const Map<std::uin
       lane_kernel("score_support", define("RADIUS", support.radius), "slanted_support");
   Buffer& supported = supported_scores_.at_least(device_, volume_bytes(rows));
   kernel.kernel.set_args(own.buffer, own.band, own_strip(own.view, rows), hypotheses_,
-                         buffer_of(todo), buffer_of(bounds), buffer_of(slopes), raw_scores_.buffer,
-                         raw_rows_.begin, support.sigma_colour, support.sigma_space, supported);
+                         buffer_of(todo), buffer_of(bounds), buffer_of(slopes), raw_->scores.buffer,
+                         raw_->rows.begin, support.sigma_colour, support.sigma_space, supported);
   kernel.run_pixels(band_.width, rows.size());
   winner_reads(supported_scores_, rows);
 }

@@ -74,10 +74,36 @@ void DeviceWorkspace::read_later(const Memory& memory, std::span<std::byte> data
   traffic_.bytes_down += data.size();
 }
 
+std::span<std::byte> DeviceWorkspace::map(Memory& memory, bool to_fill) {
+  ++traffic_.waits;
+  (to_fill ? traffic_.bytes_up : traffic_.bytes_down) += memory.bytes();
+  cl_int error = CL_SUCCESS;
+  void* const data = device_.queue().enqueueMapBuffer(
+      buffer_of(&memory).get(), CL_TRUE, to_fill ? CL_MAP_WRITE_INVALIDATE_REGION : CL_MAP_READ, 0,
+      memory.bytes(), nullptr, nullptr, &error);
+  check_cl(error, "clEnqueueMapBuffer");
+  return {static_cast<std::byte*>(data), memory.bytes()};
+}
+
+void DeviceWorkspace::unmap(Memory& memory, std::span<std::byte> mapped) {
+  GIGARAY_CL(device_.queue().enqueueUnmapMemObject(buffer_of(&memory).get(), mapped.data()));
+}
+
 void DeviceWorkspace::finish() {
   device_.finish();
   ++traffic_.waits;
   device_.log()->collect();
+}
+
+void DeviceWorkspace::keep_pace() {
+  cl::Event now;
+  GIGARAY_CL(device_.queue().enqueueMarkerWithWaitList(nullptr, &now));
+  GIGARAY_CL(device_.queue().flush());
+  if (pace_()) {
+    GIGARAY_CL(pace_.wait());
+    ++traffic_.waits;
+  }
+  pace_ = now;
 }
 
 const Buffer& DeviceWorkspace::buffer_of(const Memory* memory) const {
@@ -95,6 +121,7 @@ void DeviceWorkspace::begin_level(const LevelShape& shape) {
   band_.stride = map_pitch(shape.width);
   loaded_views_.clear();
   places_.clear();
+  for (RawScores& volume : volumes_) volume.rows = {};
 }
 
 void DeviceWorkspace::load_band(RowRange rows, const std::vector<int>& views,
@@ -120,7 +147,7 @@ void DeviceWorkspace::load_band(RowRange rows, const std::vector<int>& views,
       .run(all, WorkSize(1, 1));
   if (setup_.options.score.gradient)
     plain_kernel("unpack_channels", "unpack_gradients", options)
-        .set_args(band_, band)
+        .set_args(band_, 0, band)
         .run(all, WorkSize(1, 1));
   const ShownRows& shown = source.shown;
   is_masked_ = bool(shown.rows);
@@ -154,22 +181,25 @@ void DeviceWorkspace::ray_mean(int ref, RowRange rows, const Map<std::uint8_t>& 
   kernel.run_pixels(band_.width, rows.size());
 }
 
-void DeviceWorkspace::replace_reference(const Map<float>& means) {
-  means_ = means;
+void DeviceWorkspace::mean_gradients(RowRange rows, const Map<float>& means) {
   if (!setup_.options.score.gradient) return;
-  const OwnPixels own = reference_pixels(0);
+  const OwnPixels own = pixels_of(means);
   plain_kernel("unpack_channels", "unpack_gradients", define("SOURCE_BITS", 32))
-      .set_args(own.band, own.buffer)
-      .run(WorkSize(1, band_.height), WorkSize(1, 1));
+      .set_args(own.band, rows.begin, own.buffer)
+      .run(WorkSize(1, rows.size()), WorkSize(1, 1));
 }
 
-DeviceWorkspace::OwnPixels DeviceWorkspace::reference_pixels(int ref) const {
-  if (!means_) return {band_memory_.buffer, band_, place_of(places_, ref)};
+DeviceWorkspace::OwnPixels DeviceWorkspace::pixels_of(const Map<float>& means) const {
   BandParams own = band_;
   own.num_views = 1;
   own.row_begin = 0;
   own.row_end = band_.height;
-  return {buffer_of(means_), own, 0};
+  return {buffer_of(means), own, 0};
+}
+
+DeviceWorkspace::OwnPixels DeviceWorkspace::reference_pixels(int ref) const {
+  if (means_) return pixels_of(means_);
+  return {band_memory_.buffer, band_, place_of(places_, ref)};
 }
 
 const DeviceWorkspace::ViewSet& DeviceWorkspace::view_set(int ref, ScoreViews views) {
@@ -226,12 +256,6 @@ Buffer& DeviceWorkspace::ways(int ref) {
 std::size_t DeviceWorkspace::volume_bytes(RowRange rows) const {
   return (std::size_t(rows.size()) * band_.width * hypotheses_.pitch + 2 * GIGARAY_PAD) *
          sizeof(float);
-}
-
-Buffer& DeviceWorkspace::raw_volume(RowRange rows) {
-  raw_rows_ = rows;
-  winner_reads(raw_scores_, rows);
-  return raw_scores_.at_least(device_, volume_bytes(rows));
 }
 
 void DeviceWorkspace::winner_reads(Scratch& scores, RowRange rows) {

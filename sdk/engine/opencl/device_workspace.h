@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The Gigaray authors
 #pragma once
 
+#include <array>
 #include <map>
 #include <memory>
 #include <string>
@@ -33,7 +34,10 @@ class DeviceWorkspace : public Workspace {
   void write(Memory& memory, std::span<const std::byte> data, std::size_t offset) override;
   void read(const Memory& memory, std::span<std::byte> data, std::size_t offset) override;
   void read_later(const Memory& memory, std::span<std::byte> data) override;
+  std::span<std::byte> map(Memory& memory, bool to_fill) override;
+  void unmap(Memory& memory, std::span<std::byte> mapped) override;
   void finish() override;
+  void keep_pace() override;
   bool shares_host_memory() const override { return device_.info().shares_host_memory; }
   const Traffic& traffic() const override { return traffic_; }
   void begin_stage(const std::string& stage) override { device_.log()->begin_stage(stage); }
@@ -46,7 +50,8 @@ class DeviceWorkspace : public Workspace {
   int channels() const override { return setup_.options.score.gradient ? 5 : 3; }
   void ray_mean(int ref, RowRange rows, const Map<std::uint8_t>& wanted,
                 const Map<float>& disparity, const Map<float>& means) override;
-  void replace_reference(const Map<float>& means) override;
+  void mean_gradients(RowRange rows, const Map<float>& means) override;
+  void replace_reference(const Map<float>& means) override { means_ = means; }
   void restore_reference() override { means_ = {}; }
 
   void edge_confidence(int ref, RowRange rows, const Map<float>& strip) override;
@@ -73,6 +78,7 @@ class DeviceWorkspace : public Workspace {
   std::vector<int> count_rows(const Map<std::uint8_t>& mask) override;
   std::vector<int> count_estimates(const Map<float>& estimates) override;
 
+  void hold_scores(int volume, RowRange rows) override;
   void density_score(int ref, RowRange rows, const Map<std::uint8_t>& todo,
                      const Map<HypothesisBounds>& bounds) override;
   void robust_score(int ref, RowRange rows, const Map<std::uint8_t>& todo,
@@ -139,6 +145,7 @@ class DeviceWorkspace : public Workspace {
     int view;
   };
   OwnPixels reference_pixels(int ref) const;
+  OwnPixels pixels_of(const Map<float>& means) const;
 
   /// Members of a ScoreViews, for one reference view.
   struct ViewSet {
@@ -156,7 +163,8 @@ class DeviceWorkspace : public Workspace {
   StripParams strip(RowRange rows) const { return own_strip(0, rows); }
 
   std::size_t volume_bytes(RowRange rows) const;
-  Buffer& raw_volume(RowRange rows);
+  /// Byte where a row of a volume begins.
+  std::size_t score_offset(int row) const;
   void winner_reads(Scratch& scores, RowRange rows);
   int least_views(int used) const;
   /// Samples from taps know masked pixels anyway.
@@ -221,17 +229,24 @@ class DeviceWorkspace : public Workspace {
   bool is_masked_ = false;               ///< some pixels of the band may be
   int rays_ref_ = -1, shifts_ref_ = -1;  ///< The views that rays_buffer_ and shifts_ are for.
   RowRange score_rows_;
-  RowRange raw_rows_;                 ///< of raw_scores_
+  /// Scores as they come, and of which rows.
+  struct RawScores {
+    Scratch scores;
+    RowRange rows;
+  };
+  std::array<RawScores, 2> volumes_;
+  RawScores* raw_ = volumes_.data();  ///< that steps work on
   Scratch* winner_scores_ = nullptr;  ///< the scores of score_rows_
   Scratch* chosen_by_ = nullptr;      ///< path_scores_ after a scan-line step, else the scores
   Map<float> means_;                  ///< stand for the reference view; empty: they don't
   Traffic traffic_;
+  cl::Event pace_;  ///< of the last keep_pace()
 
   Buffer table_buffer_, active_buffer_, rays_buffer_, at_buffer_;
   std::vector<int> at_;  ///< what at_buffer_ holds
   std::map<ScoreViews, ViewSet> view_sets_;
   Scratch shifts_, together_, lonely_, packed_, counts_, jumps_, near_, grown_, grown_bounds_,
-      intervals_, band_memory_, taps_, raw_scores_, supported_scores_, path_scores_;
+      intervals_, band_memory_, taps_, supported_scores_, path_scores_;
 };
 
 }  // namespace gigaray::opencl

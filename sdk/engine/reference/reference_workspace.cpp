@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Gigaray authors
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstring>
 
@@ -91,7 +92,12 @@ class ReferenceWorkspace : public Workspace {
   void read_later(const Memory& memory, std::span<std::byte> data) override {
     read(memory, data, 0);
   }
+  std::span<std::byte> map(Memory& memory, bool) override {
+    return {bytes_of(memory), memory.bytes()};
+  }
+  void unmap(Memory&, std::span<std::byte>) override {}
   void finish() override {}
+  void keep_pace() override {}
   bool shares_host_memory() const override { return true; }
   const Traffic& traffic() const override { return traffic_; }
   void begin_stage(const std::string& stage) override {
@@ -107,6 +113,7 @@ class ReferenceWorkspace : public Workspace {
     band_ = Band{shape, {}, 0, channels(), {}};
     places_.clear();
     active_places_.clear();
+    volumes_ = {};
   }
   void load_band(RowRange rows, const std::vector<int>& views, const EncodedRows& source) override {
     restore_reference();
@@ -156,14 +163,14 @@ class ReferenceWorkspace : public Workspace {
     reference::ray_mean(band_, sampler_, place(ref), rows, setup_.options.score, rays.view(),
                         view(means));
   }
-  void replace_reference(const Map<float>& means) override {
-    own_ = Band{band_.shape, band_.shape.rows(), 1, band_.channels, {}};
-    own_.data.resize(std::size_t(own_.rows.size()) * own_.channels * own_.shape.width);
-    for (int v = 0; v < own_.rows.end; ++v)
-      for (int c = 0; c < 3; ++c)
-        std::copy_n(view(means).row(v * own_.channels + c), own_.shape.width, own_.plane(0, v, c));
-    unpack_gradients(own_);
+  void mean_gradients(RowRange rows, const Map<float>& means) override {
+    if (channels() < 5) return;
+    const Band band = band_of(means);
+    for (int v = rows.begin; v < rows.end; ++v)
+      for (int c = 3; c < channels(); ++c)
+        std::copy_n(band.plane(0, v, c), band.shape.width, view(means).row(v * channels() + c));
   }
+  void replace_reference(const Map<float>& means) override { own_ = band_of(means); }
   void restore_reference() override { own_ = {}; }
 
   void edge_confidence(int ref, RowRange rows, const Map<float>& strip) override {
@@ -266,6 +273,18 @@ class ReferenceWorkspace : public Workspace {
     return counts;
   }
 
+  void hold_scores(int volume, RowRange rows) override {
+    Scores held(rows, setup_.hypotheses.count, band_.shape.width);
+    const Scores& before = volumes_[volume];
+    const std::size_t row = std::size_t(held.count) * held.width;
+    for (int v = std::max(rows.begin, before.rows.begin); v < std::min(rows.end, before.rows.end);
+         ++v)
+      std::copy_n(before.data.begin() + std::size_t(v - before.rows.begin) * row, row,
+                  held.data.begin() + std::size_t(v - rows.begin) * row);
+    volumes_[volume] = std::move(held);
+    raw_ = &volumes_[volume];
+    winner_takes(*raw_);
+  }
   void density_score(int ref, RowRange rows, const Map<std::uint8_t>& todo,
                      const Map<HypothesisBounds>& bounds) override {
     score_rays(rows, todo, bounds, [&, at = place(ref)](const Ray& ray) {
@@ -290,7 +309,7 @@ class ReferenceWorkspace : public Workspace {
                      const Map<HypothesisBounds>& bounds) override {
     const OwnPixels own = reference_pixels(ref);
     supported_scores_ = reference::score_support(own.band, own.view, rows, setup_.options.support,
-                                                 view(todo), view(bounds), raw_scores_);
+                                                 view(todo), view(bounds), *raw_);
     winner_takes(supported_scores_);
   }
   void slanted_support(int ref, RowRange rows, const Map<std::uint8_t>& todo,
@@ -298,7 +317,7 @@ class ReferenceWorkspace : public Workspace {
     const OwnPixels own = reference_pixels(ref);
     supported_scores_ = reference::slanted_support(own.band, own.view, rows, setup_.options.support,
                                                    setup_.hypotheses, view(todo), view(bounds),
-                                                   view(slopes), raw_scores_);
+                                                   view(slopes), *raw_);
     winner_takes(supported_scores_);
   }
   void scanline(int ref, RowRange rows, const Map<std::uint8_t>& todo) override {
@@ -446,6 +465,16 @@ class ReferenceWorkspace : public Workspace {
     return std::uint8_t(
         bytes_of(*shown.rows.memory)[line * shown.width + (std::size_t(u) << shown.shift)]);
   }
+  /// Means with their gradients, as a band of one view.
+  Band band_of(const Map<float>& means) const {
+    Band band{band_.shape, band_.shape.rows(), 1, band_.channels, {}};
+    band.data.resize(std::size_t(band.rows.size()) * band.channels * band.shape.width);
+    for (int v = 0; v < band.rows.end; ++v)
+      for (int c = 0; c < 3; ++c)
+        std::copy_n(view(means).row(v * band.channels + c), band.shape.width, band.plane(0, v, c));
+    unpack_gradients(band);
+    return band;
+  }
   /// Where the pixels of the reference view are.
   struct OwnPixels {
     const Band& band;
@@ -457,16 +486,15 @@ class ReferenceWorkspace : public Workspace {
   template <class ScoreOf>
   void score_rays(RowRange rows, const Map<std::uint8_t>& todo, const Map<HypothesisBounds>& bounds,
                   ScoreOf score_of) {
-    raw_scores_ = Scores(rows, setup_.hypotheses.count, band_.shape.width);
     for (int v = rows.begin; v < rows.end; ++v)
       for (int u = 0; u < band_.shape.width; ++u) {
         if (!view(todo).row(v)[u]) continue;
         const auto [first, last] = view(bounds).row(v)[u];
         for (int i = first; i <= last; ++i)
-          raw_scores_.at(u, v, i) = score_of(Ray{double(u), double(v), setup_.hypotheses.value(i)});
-        raw_scores_.repeat_ends(u, v, view(bounds).row(v)[u]);
+          raw_->at(u, v, i) = score_of(Ray{double(u), double(v), setup_.hypotheses.value(i)});
+        raw_->repeat_ends(u, v, view(bounds).row(v)[u]);
       }
-    winner_takes(raw_scores_);
+    winner_takes(*raw_);
   }
   void winner_takes(const Scores& scores) { chosen_by_ = winner_scores_ = &scores; }
 
@@ -479,7 +507,9 @@ class ReferenceWorkspace : public Workspace {
   std::vector<int> active_places_;  ///< the same, of the active views
   Band band_;
   Band own_;  ///< replaced pixels of the reference view; empty: those of band_
-  Scores raw_scores_, supported_scores_, path_scores_;
+  std::array<Scores, 2> volumes_;
+  Scores* raw_ = volumes_.data();  ///< that steps work on
+  Scores supported_scores_, path_scores_;
   const Scores* winner_scores_ = nullptr;
   const Scores* chosen_by_ = nullptr;  ///< path_scores_ after a scan-line step, else the scores
   Traffic traffic_;                    ///< none: all memory is the host's

@@ -35,15 +35,41 @@ RowsOnDevice LevelRows::stage(RowRange rows, int views) {
     staged_.reset();
     staged_ = workspace_->allocate(bytes);
   }
-  scratch_.at_least(bytes);
   return {staged_, rows.begin, views};
 }
+
+namespace {
+
+/// Memory as the host sees it.
+class Mapped {
+ public:
+  Mapped(Workspace& workspace, Memory& memory, bool to_fill)
+      : workspace_(workspace), memory_(memory), bytes_(workspace.map(memory, to_fill)) {}
+  ~Mapped() {
+    try {
+      workspace_.unmap(memory_, bytes_);
+    } catch (...) {  // shows again at the next step
+    }
+  }
+  Mapped(const Mapped&) = delete;
+  Mapped& operator=(const Mapped&) = delete;
+  std::byte* data() const { return bytes_.data(); }
+
+ private:
+  Workspace& workspace_;
+  Memory& memory_;
+  std::span<std::byte> bytes_;
+};
+
+}  // namespace
 
 RowsOnDevice LevelRows::open(RowRange rows) {
   if (memory_) return {memory_, 0, views_};
   const RowsOnDevice opened = stage(rows, views_);
-  const std::byte* data = store_.open(rows, scratch_);
-  workspace_->write(*opened.memory, {data, std::size_t(rows.size()) * store_.row_bytes()});
+  const Mapped mapped(*workspace_, *opened.memory, true);
+  for (int v = rows.begin; v < rows.end; ++v)
+    store_.read(v, 0, store_.row_bytes(),
+                mapped.data() + std::size_t(v - rows.begin) * store_.row_bytes());
   return opened;
 }
 
@@ -51,13 +77,13 @@ RowsOnDevice LevelRows::open(RowRange rows, const std::vector<int>& views, std::
   at = views;
   if (memory_ || int(views.size()) == views_) return open(rows);
   const RowsOnDevice opened = stage(rows, int(views.size()));
-  std::byte* out = scratch_.data();
+  const Mapped mapped(*workspace_, *opened.memory, true);
+  std::byte* out = mapped.data();
   for (int v = rows.begin; v < rows.end; ++v)
     for (const int view : views) {
       store_.read(v, view * view_bytes_, view_bytes_, out);
       out += view_bytes_;
     }
-  workspace_->write(*opened.memory, {scratch_.data(), std::size_t(out - scratch_.data())});
   for (std::size_t i = 0; i < at.size(); ++i) at[i] = int(i);
   return opened;
 }
@@ -70,23 +96,19 @@ ViewRows LevelRows::open_view(RowRange rows, int view) {
 
 void LevelRows::close(RowRange rows, const RowsOnDevice& opened) {
   if (memory_) return;
-  const std::size_t bytes = std::size_t(rows.size()) * store_.row_bytes();
-  scratch_.at_least(bytes);
-  workspace_->read(*opened.memory, {scratch_.data(), bytes});
+  const Mapped mapped(*workspace_, *opened.memory, false);
   for (int v = rows.begin; v < rows.end; ++v)
     store_.write(v, 0, store_.row_bytes(),
-                 scratch_.data() + std::size_t(v - rows.begin) * store_.row_bytes());
+                 mapped.data() + std::size_t(v - rows.begin) * store_.row_bytes());
 }
 
 void LevelRows::close(RowRange rows, int view, const ViewRows& opened) {
   if (memory_) return;
   if (opened.rows.stored_views == views_) return close(rows, opened.rows);
-  const std::size_t bytes = std::size_t(rows.size()) * view_bytes_;
-  scratch_.at_least(bytes);
-  workspace_->read(*opened.rows.memory, {scratch_.data(), bytes});
+  const Mapped mapped(*workspace_, *opened.rows.memory, false);
   for (int v = rows.begin; v < rows.end; ++v)
     store_.write(v, view * view_bytes_, view_bytes_,
-                 scratch_.data() + std::size_t(v - rows.begin) * view_bytes_);
+                 mapped.data() + std::size_t(v - rows.begin) * view_bytes_);
 }
 
 }  // namespace gigaray

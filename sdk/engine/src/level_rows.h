@@ -53,7 +53,6 @@ class LevelRows {
   std::shared_ptr<Memory> memory_;  ///< all rows; null: they are in the store
   RowStore store_;
   std::shared_ptr<Memory> staged_;  ///< the rows that are open
-  AlignedBytes scratch_;
 };
 
 }  // namespace gigaray

@@ -6,11 +6,13 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include "gigaray/memory_limit.h"
 #include "gigaray/parallel.h"
 #include "gigaray/samplers/any_sampler.h"
 #include "gigaray/scratch_file.h"
+#include "sweep.h"
 
 namespace gigaray {
 namespace {
@@ -131,7 +133,12 @@ class Planner {
 
   double score_bytes(double volume) const {
     const SupportOptions& support = options_.support;
-    return (1 + (support.radius > 0) + support.scanline) * volume;
+    const double row = volume_row_bytes(light_field_.width, hypotheses_);
+    const int lag = score_lag(0);
+    // Looks that score anew, while the first look's scores wait for the slanted one.
+    const bool twice =
+        lag > 0 && volume >= row * (lag + kScanlineBlock) && volume < row * light_field_.height;
+    return (1 + (support.radius > 0) + support.scanline + twice) * volume;
   }
 
   /// Maps of one view: what is to do and its bounds (twice with support), disparity, confidence,
@@ -172,20 +179,32 @@ class Planner {
     double peak_band = 0;
     for (const LevelShape& shape : shapes_) {
       const StripNeeds needs = strip_needs(options_.support, shape.level);
-      LevelPlan level{shape, 0, halo(shape), 0};
-      const int held = int(volume / volume_row_bytes(shape.width, hypotheses_)) - needs.halo;
-      level.strip_rows = std::max(held / needs.multiple, 1) * needs.multiple;
+      LevelPlan level{shape, 0, 0, halo(shape), 0, false};
+      const int held = int(volume / volume_row_bytes(shape.width, hypotheses_));
+      const int lag = score_lag(shape.level);
+      level.keeps_scores = lag > 0 && held >= std::min(lag + needs.multiple, shape.height);
+      const int free = held - (level.keeps_scores ? lag : needs.halo);
+      level.strip_rows =
+          held >= shape.height ? shape.height : std::max(free / needs.multiple, 1) * needs.multiple;
       const LevelCost cost = cost_of(shape, light_field_, options_, active_, band_views_, staged);
-      level.band_rows = shape.height;
-      while (band_bytes(shape, cost, level.band_rows) > room ||
-             loaded_rows(shape, level.band_rows) * cost.row_floats > device_.largest_buffer) {
-        // Halving keeps the number of bands, and with it the halo rows, small.
-        const int fewer = level.band_rows > 16 ? (level.band_rows + 1) / 2 : level.band_rows - 1;
-        const int whole = (fewer + needs.multiple - 1) / needs.multiple * needs.multiple;
-        if (whole >= level.band_rows || whole < 1) return std::nullopt;
-        level.band_rows = whole;
-      }
-      peak_band = std::max(peak_band, band_bytes(shape, cost, level.band_rows));
+      // One sweep loads pixels once and holds what its stages lag; else every stage loads its own.
+      const auto stages = sweep_stages(options_, shape.level, int(band_views_));
+      const auto reads = [&](int held, double times) {
+        const int rows = fit_band(shape, cost, room, needs.multiple, held);
+        const double loads = rows > 0 ? std::ceil(double(shape.height) / rows) : 0;
+        return std::pair(rows, rows > 0 ? times * loads * loaded_rows(shape, rows, held)
+                                        : std::numeric_limits<double>::infinity());
+      };
+      const int stage_lag = sweep_lag(stages);
+      const auto swept = reads(stage_lag, 1), staged_reads = reads(0, double(stages.size()));
+      const bool sweeps = swept.second <= staged_reads.second;
+      level.band_rows = sweeps ? swept.first : staged_reads.first;
+      if (level.band_rows == 0) return std::nullopt;
+      const int held_lag = sweeps ? stage_lag : 0;
+      peak_band = std::max(peak_band, band_bytes(shape, cost, level.band_rows, held_lag));
+      if (level.band_rows < shape.height)
+        level.strip_rows = std::min(level.strip_rows, level.band_rows);
+      level.window_rows = sweeps ? window_rows(shape, level.band_rows, stage_lag) : 0;
       result.levels.push_back(level);
     }
     const double bands_on_host = device_.shares_host_memory ? peak_band : 0;
@@ -207,7 +226,7 @@ class Planner {
     for (const LevelShape& shape : shapes_) {
       const LevelCost cost = cost_of(shape, light_field_, options_, active_, band_views_, true);
       const int rows = std::min(strip_needs(options_.support, shape.level).multiple, shape.height);
-      peak_band = std::max(peak_band, band_bytes(shape, cost, rows));
+      peak_band = std::max(peak_band, band_bytes(shape, cost, rows, 0));
     }
     return fixed_bytes(least_volume()) + peak_band;
   }
@@ -245,13 +264,33 @@ class Planner {
     return 3 + std::max({options_.edge.radius + 2, needs.halo / 2, options_.winner.median_radius,
                          options_.support.slanted ? kSlopeReach : 0, 3});
   }
-  double band_bytes(const LevelShape& shape, const LevelCost& cost, int band_rows) const {
-    return loaded_rows(shape, band_rows) * cost.band_row +
+  /// Rows of a band that fit into so many bytes; 0: none do.
+  int fit_band(const LevelShape& shape, const LevelCost& cost, double room, int multiple,
+               int lag) const {
+    int band = shape.height;
+    while (band_bytes(shape, cost, band, lag) > room ||
+           loaded_rows(shape, band, lag) * cost.row_floats > device_.largest_buffer) {
+      // Halving keeps the number of bands, and with it the halo rows, small.
+      const int fewer = band > 16 ? (band + 1) / 2 : band - 1;
+      const int whole = (fewer + multiple - 1) / multiple * multiple;
+      if (whole >= band || whole < 1) return 0;
+      band = whole;
+    }
+    return band;
+  }
+  int window_rows(const LevelShape& shape, int band_rows, int lag) const {
+    return band_rows >= shape.height ? shape.height : std::min(band_rows + lag, shape.height);
+  }
+  int score_lag(int level) const {
+    return gigaray::score_lag(sweep_stages(options_, level, int(band_views_)), options_.support);
+  }
+  double band_bytes(const LevelShape& shape, const LevelCost& cost, int band_rows, int lag) const {
+    return loaded_rows(shape, band_rows, lag) * cost.band_row +
            (cost.reached_row > 0 ? reached_rows(shape, band_rows, 0) * cost.reached_row : 0);
   }
-  /// Most rows in memory for a band of so many rows.
-  int loaded_rows(const LevelShape& shape, int band_rows) const {
-    return reached_rows(shape, band_rows, halo(shape));
+  /// Most rows in memory for a band of so many rows and what stages lag.
+  int loaded_rows(const LevelShape& shape, int band_rows, int lag) const {
+    return reached_rows(shape, window_rows(shape, band_rows, lag), halo(shape));
   }
   /// Most rows that rays of a band and `around` rows on both sides reach.
   int reached_rows(const LevelShape& shape, int band_rows, int around) const {

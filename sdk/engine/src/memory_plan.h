@@ -14,9 +14,13 @@ namespace gigaray {
 /// Sizes of one level and how it is walked.
 struct LevelPlan {
   LevelShape shape;
-  int band_rows = 0;   ///< Rows of a band without halo.
-  int halo = 0;        ///< Rows around a band that the steps look at in one view.
-  int strip_rows = 0;  ///< Rows whose scores are held at once, without those that support them.
+  int band_rows = 0;  ///< Rows of a band without halo.
+  /// Rows whose pixels are there during a sweep: a band and what its stages lag. 0: every stage
+  /// loads its own.
+  int window_rows = 0;
+  int halo = 0;               ///< Rows around a band that the steps look at in one view.
+  int strip_rows = 0;         ///< Rows that a sweep goes on by; no more than a band.
+  bool keeps_scores = false;  ///< Scores of the first look are there for the slanted one.
 };
 
 /// How a run fits into the memory it may take.

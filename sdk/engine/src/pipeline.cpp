@@ -40,8 +40,9 @@ void Pipeline::run() {
     for (int i = 0; i < int(active_.size()); ++i) {
       report(double(i) / double(active_.size()));
       if (!find_todo(i)) continue;
-      score_view(active_[i]);
-      accept_view(i);
+      sweep(i);
+      clear_bars(i);
+      collect_tuples(active_[i]);
     }
     if (!is_last_level()) coarsen();
     if (options_.keep_searches && level_ > 0) keep_searches();
@@ -122,7 +123,7 @@ void Pipeline::begin_level(int level) {
     levels_.push_back(std::move(next));
   }
   workspace_.begin_level(shape);
-  loaded_band_ = loaded_rows_ = {};
+  loaded_sweep_ = loaded_rows_ = {};
   loaded_views_.clear();
   make_maps();
 }
@@ -137,7 +138,7 @@ void Pipeline::make_maps() {
   maps.bounds = workspace_.make_map<HypothesisBounds>(width, all);
   maps.disparity = workspace_.make_map<float>(width, all);
   maps.confidence = workspace_.make_map<float>(width, all);
-  maps.smooth = workspace_.make_map<float>(width, all);
+  maps.accepted = workspace_.make_map<float>(width, all);
   maps.radiance = workspace_.make_map<Radiance>(width, all);
   maps.scratch = workspace_.make_map<std::uint8_t>(width, all);
   maps.more_scratch = workspace_.make_map<std::uint8_t>(width, all);
@@ -148,8 +149,13 @@ void Pipeline::make_maps() {
   if (level_ == 0 && options_.propagation.crack_width > 0)
     maps.more_confidence = workspace_.make_map<float>(width, all);
   if (level_ > 0 || !support.slanted) return;
+  maps.smooth = workspace_.make_map<float>(width, all);
   maps.slopes = workspace_.make_map<Slope>(width, all);
-  if (support.half_planes) maps.beside = workspace_.make_map<std::uint8_t>(width, all);
+  if (support.half_planes) {
+    maps.beside = workspace_.make_map<std::uint8_t>(width, all);
+    maps.behind_todo = workspace_.make_map<std::uint8_t>(width, all);
+    maps.behind_bounds = workspace_.make_map<HypothesisBounds>(width, all);
+  }
   if (options_.score.ray_mean)
     maps.means = workspace_.make_map<float>(width, {0, all.size() * workspace_.channels()});
 }
@@ -170,11 +176,22 @@ RowRange Pipeline::rows_needed(int view, RowRange rows) const {
       sampler_);
 }
 
-void Pipeline::load_band(int view, RowRange band) {
-  if (band == loaded_band_ && partners_[view] == loaded_views_) return;
-  const RowRange own_rows = grown(band, plan_.levels[level_].halo, shape().height);
-  load_rows(partners_[view], rows_needed(view, own_rows), true);
-  loaded_band_ = band;
+void Pipeline::load_sweep(int view, RowRange rows, const std::vector<int>& done) {
+  const LevelPlan& plan = plan_.levels[level_];
+  const int height = plan.shape.height;
+  int first = height;
+  for (const int row : done)
+    if (row < height) first = std::min(first, row);
+  const RowRange wanted = plan.window_rows > 0
+                              ? RowRange{first, std::min(done.front() + plan.strip_rows, height)}
+                              : rows;
+  if (loaded_sweep_.size() > 0 && wanted.begin >= loaded_sweep_.begin &&
+      wanted.end <= loaded_sweep_.end && partners_[view] == loaded_views_)
+    return;
+  const RowRange window{wanted.begin,
+                        std::max(wanted.end, std::min(first + plan.window_rows, height))};
+  load_rows(partners_[view], rows_needed(view, grown(window, plan.halo, height)), true);
+  loaded_sweep_ = window;
   if (sees_means_) workspace_.replace_reference(of_view_.means);
 }
 
@@ -190,7 +207,7 @@ void Pipeline::load_rows(const std::vector<int>& views, RowRange rows, bool mask
   if (rows == loaded_rows_ && views == loaded_views_ && masked == loaded_masked_) return;
   workspace_.begin_stage("load");
   const StageTimer timer(seconds_, "load");
-  loaded_band_ = {};
+  loaded_sweep_ = {};
   EncodedRows source;
   source.encoding = level_ > 0                              ? BandEncoding::kFloat
                     : light_field_.pixels->bit_depth() == 8 ? BandEncoding::kBits8

@@ -13,6 +13,7 @@
 #include "gigaray/samplers/any_sampler.h"
 #include "level_rows.h"
 #include "memory_plan.h"
+#include "sweep.h"
 #include "tuple_store.h"
 #include "workspace.h"
 
@@ -30,9 +31,9 @@ struct LevelState {
 };
 
 /// Walks the levels from fine to coarse, in each the views from the centre outwards, in each the
-/// bands from top to bottom. The order of views and levels is fixed; a view is complete before the
-/// next one starts. That makes the result independent of the bands. It decides what is done and
-/// looks at no pixel: those stay in the workspace.
+/// rows from top to bottom. The order of views and levels is fixed; a view is complete before the
+/// next one starts. That makes the result independent of how many rows are done at once. It decides
+/// what is done and looks at no pixel: those stay in the workspace.
 class Pipeline {
  public:
   Pipeline(const LightField& light_field, const DepthOptions& options,
@@ -55,20 +56,14 @@ class Pipeline {
     Map<HypothesisBounds> bounds, grown_bounds;
     Map<float> disparity;  ///< Winners so far and what the view already has.
     Map<float> confidence, more_confidence;
-    Map<float> smooth;  ///< Winners of a look after a median; accepted estimates at the end.
+    Map<float> smooth;    ///< Winners of a look after a median.
+    Map<float> accepted;  ///< Estimates that the view keeps and gives to others.
     Map<Slope> slopes;
-    Map<float> means;  ///< along rays
-    Map<std::uint8_t> beside, scratch, more_scratch;
+    Map<float> means;                       ///< along rays
+    Map<std::uint8_t> beside, behind_todo;  ///< beside jumps, and what supports that
+    Map<HypothesisBounds> behind_bounds;
+    Map<std::uint8_t> scratch, more_scratch;
     Map<Radiance> radiance;
-  };
-
-  /// One look at the pixels to do, with what was learned from the one before.
-  struct Look {
-    const Map<std::uint8_t>* todo = nullptr;
-    std::vector<int> counts;   ///< of pixels to do, by row
-    bool with_slopes = false;  ///< support along the slopes
-    ScoreViews views = ScoreViews::kAll;
-    bool scanline = false;
   };
 
   void decode();
@@ -81,22 +76,21 @@ class Pipeline {
   /// Opening by a diamond that reaches `radius` px: 1, a cross of 3 px, removes isolated pixels and
   /// keeps lines of two. In one of the scratch maps; of radius 1 in more_scratch.
   const Map<std::uint8_t>& opened(int radius, const Map<std::uint8_t>& mask);
-  void score_view(int view);
-  void look_behind(int view);
-  void grow_todo(const Map<std::uint8_t>& todo);
-  void score_strips(int view, const Look& look);
-  void score_strip(int view, RowRange rows, const Look& look);
-  void take_winners(int view, RowRange rows, const Map<std::uint8_t>& todo,
-                    const Map<float>& winners, const Map<float>& contrast);
-  void step_back(RowRange rows, const Map<std::uint8_t>& todo, const Map<float>& winners,
-                 const Map<float>& contrast);
-  void smooth_disparity(int view);
-  void ray_means(int view);
+  void sweep(int active_idx);
+  void run_stage(int active_idx, SweepStep step, RowRange rows, const std::vector<int>& done);
+  void grow_todo();
+  void score(int view, RowRange rows, ScoreViews views, const Map<std::uint8_t>& todo,
+             const Map<HypothesisBounds>& bounds);
+  void look(int view, SweepStep step, RowRange rows);
+  /// First row of the scores of the first look that the slanted one has not done with.
+  int slanted_scores_begin() const;
+  void support(int view, RowRange rows, const Map<std::uint8_t>& todo, bool along_slopes);
+  void look_behind(int view, RowRange rows);
+  void take_winners(int view, RowRange rows, const Map<float>& winners, const Map<float>& contrast);
   void see_means(bool see);
-  void fit_slopes(int view);
-  void accept_view(int active_idx);
+  void accept(int active_idx, RowRange rows, bool anything);
   void propagate(int active_idx, RowRange band);
-  void clear_bars(int active_idx, RowRange band);
+  void clear_bars(int active_idx);
   void collect_tuples(int view);
   /// Those that were being read are there.
   void take_fresh_tuples();
@@ -106,8 +100,9 @@ class Pipeline {
 
   std::vector<RowRange> bands() const;
   int count(const std::vector<int>& counts, RowRange rows) const;
-  /// What the rays of some rows of a view need, and the rows around them.
-  void load_band(int view, RowRange band);
+  /// What the rays of the rows that a sweep is at need, and the rows around them; where memory does
+  /// not hold that, of `rows`.
+  void load_sweep(int view, RowRange rows, const std::vector<int>& done);
   /// Some rows of some views, as they are.
   void load_rows(const std::vector<int>& views, RowRange rows, bool masked);
   ShownRows open_shown(RowRange rows, const std::vector<int>& views, std::vector<int>& at);
@@ -120,6 +115,7 @@ class Pipeline {
   }
   const LevelShape& shape() const { return plan_.levels[level_].shape; }
   void report(double done);
+  void report_sweep(int active_idx);
   /// A map of some rows alone; strips of different slots can be used together.
   template <class T>
   Map<T> strip(int slot, RowRange rows) {
@@ -153,12 +149,13 @@ class Pipeline {
   int level_ = 0;
   Maps of_view_;
   std::vector<int> todo_counts_;  ///< pixels to do of the view that is worked on, by row
-  RowRange loaded_band_;          ///< that the loaded rows are for; empty: none
+  RowRange loaded_sweep_;         ///< rows of a sweep that the loaded rows are for; empty: none
   RowRange loaded_rows_;
   std::vector<int> loaded_views_;
   bool loaded_masked_ = false;
   bool sees_means_ = false;  ///< means stand for the pixels of the view that is worked on
-  RowRange scored_rows_;  ///< what the workspace has raw scores of, for the view that is worked on
+  std::vector<int> progress_of_stages_;  ///< rows that each stage of the sweep has done
+  RowRange first_scores_;                ///< rows that the scores of the first look are held of
   std::array<std::shared_ptr<Memory>, 4> strips_;
   std::shared_ptr<Memory> tuple_memory_;
   std::vector<RayTuple> fresh_tuples_;  ///< being read

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Gigaray authors
-// How a view gets its winners: up to three looks at the pixels to do, each strip by strip.
+// The sweep over a view: from its scores to its accepted estimates.
 #include <algorithm>
 
 #include "pipeline.h"
@@ -11,174 +11,230 @@ namespace {
 // A silhouette, and what is farther than it, in hypotheses: a difference that the outermost views
 // see.
 constexpr float kJump = 7, kFarther = 3;
-// Where the nearer surface can hide a point from some views, px.
-constexpr int kBesideJump = 10;
-// So many views make a second scoring cheaper than a first with all of them: in bands both would be
-// needed.
-constexpr int kManyViews = 160;
+// Samples that are scored at once: between pieces a run can be stopped, and says how far it is.
+constexpr double kSamplesAtOnce = 1e9;
+
+/// The volumes of scores: those of the first and the slanted look, and of looks that score anew.
+constexpr int kFirstScores = 0, kNewScores = 1;
+
+bool sees_means(SweepStep step) {
+  return step == SweepStep::kSlopesAgain || step == SweepStep::kLastLook ||
+         step == SweepStep::kBeside || step == SweepStep::kLookBehind;
+}
 
 }  // namespace
 
-void Pipeline::grow_todo(const Map<std::uint8_t>& todo) {
-  workspace_.begin_stage("select");
-  const int radius = options_.support.radius;
-  if (radius > 0)
-    workspace_.grow_todo(shape().rows(), radius, todo, of_view_.bounds, of_view_.grown_todo,
-                         of_view_.grown_bounds);
-}
-
-void Pipeline::score_view(int view) {
-  scored_rows_ = {};
-  // Coarser levels have too few pixels, and test too few hypotheses, for more than one look.
-  const bool finest = level_ == 0, again = finest && options_.support.slanted;
-  grow_todo(of_view_.todo);
-  Look look{&of_view_.todo, todo_counts_};
-  look.scanline = finest && options_.support.scanline;
-  // Where the last look has to score anew anyway, or takes very many views, a few do for the first.
-  const bool few_first = again && options_.score.gradient &&
-                         (options_.score.ray_mean || int(partners_[view].size()) > kManyViews);
-  if (few_first) look.views = ScoreViews::kFirst;
-  score_strips(view, look);
-  if (!again) return;
-
-  smooth_disparity(view);
-  fit_slopes(view);
-  look.with_slopes = true;
-  score_strips(view, look);
-  if (few_first) {
-    smooth_disparity(view);
-    if (options_.score.ray_mean) {
-      ray_means(view);
-      see_means(true);
+// Every stage follows the one before at the distance that it looks ahead, so that the pixels of a
+// view are loaded once, whatever the number of strips. All rows in one strip: each stage does all
+// of them in turn.
+void Pipeline::sweep(int active_idx) {
+  const int view = active_[active_idx], height = shape().height;
+  const LevelPlan& plan = plan_.levels[level_];
+  const auto stages = sweep_stages(options_, level_, int(partners_[view].size()));
+  progress_of_stages_.assign(stages.size(), 0);
+  std::vector<int>& done = progress_of_stages_;
+  grow_todo();
+  workspace_.hold_scores(kFirstScores, {});
+  workspace_.hold_scores(kNewScores, {});
+  first_scores_ = {};
+  while (done.back() < height) {
+    for (std::size_t i = 0; i < stages.size(); ++i) {
+      const SweepStage& stage = stages[i];
+      const int ready = i == 0 ? std::min(done[0] + plan.strip_rows, height) : done[i - 1];
+      const int end =
+          ready == height ? height : (ready - stage.reach) / stage.multiple * stage.multiple;
+      if (end <= done[i]) continue;
+      control_.throw_if_cancelled();
+      see_means(options_.score.ray_mean && sees_means(stage.step));
+      run_stage(active_idx, stage.step, {done[i], end}, done);
+      done[i] = end;
+      report_sweep(active_idx);
     }
-    fit_slopes(view);
-    look.views = ScoreViews::kAll;
-    scored_rows_ = {};
-    score_strips(view, look);
+    if (done.back() < height) workspace_.keep_pace();
   }
-  if (options_.support.half_planes) look_behind(view);
   see_means(false);
 }
 
-void Pipeline::look_behind(int view) {
-  workspace_.begin_stage("select");
-  Maps& maps = of_view_;
-  workspace_.beside_jumps(shape().rows(), maps.smooth, kJump * float(hypotheses_.step()),
-                          kBesideJump, maps.todo, maps.beside);
-  Look look{&maps.beside, workspace_.count_rows(maps.beside)};
-  if (count(look.counts, shape().rows()) == 0) return;
-  grow_todo(maps.beside);
-  look.with_slopes = true;
-  look.views = ScoreViews::kHalfPlanes;
-  scored_rows_ = {};
-  score_strips(view, look);
+void Pipeline::report_sweep(int active_idx) {
+  double done = 0;
+  for (const int rows : progress_of_stages_) done += rows;
+  done /= double(progress_of_stages_.size()) * shape().height;
+  report((active_idx + done) / double(active_.size()));
 }
 
-void Pipeline::score_strips(int view, const Look& look) {
-  const int strip_rows = plan_.levels[level_].strip_rows;
-  for (const RowRange band : bands()) {
-    if (count(look.counts, band) == 0) continue;
-    load_band(view, band);
-    for (int v = band.begin; v < band.end; v += strip_rows) {
-      const RowRange strip{v, std::min(v + strip_rows, band.end)};
+void Pipeline::run_stage(int active_idx, SweepStep step, RowRange rows,
+                         const std::vector<int>& done) {
+  const int view = active_[active_idx];
+  Maps& maps = of_view_;
+  const bool anything = count(todo_counts_, rows) > 0;
+  const auto load = [&] { load_sweep(view, rows, done); };
+  switch (step) {
+    case SweepStep::kLook:
+    case SweepStep::kSlantedLook:
+    case SweepStep::kLastLook:
+      if (!anything) return;
+      load();
+      return look(view, step, rows);
+    case SweepStep::kSmooth:
+    case SweepStep::kSmoothAgain:
+      load();
+      workspace_.begin_stage("median");
+      return workspace_.bilateral_median(view, rows, options_.winner.median_radius,
+                                         options_.winner.median_tolerance, maps.disparity,
+                                         maps.smooth);
+    case SweepStep::kSlopes:
+    case SweepStep::kSlopesAgain:
+      if (!anything) return;
+      load();
+      workspace_.begin_stage("slopes");
+      return workspace_.slope_fit(view, rows, maps.todo, maps.smooth, maps.slopes);
+    case SweepStep::kMeans:
+      load();
+      workspace_.begin_stage("ray means");
+      return workspace_.ray_mean(view, rows, maps.grown_todo, maps.smooth, maps.means);
+    case SweepStep::kMeanGradients:
+      workspace_.begin_stage("ray means");
+      return workspace_.mean_gradients(rows, maps.means);
+    case SweepStep::kBeside:
+      workspace_.begin_stage("select");
+      return workspace_.beside_jumps(rows, maps.smooth, kJump * float(hypotheses_.step()),
+                                     kBesideJump, maps.todo, maps.beside);
+    case SweepStep::kLookBehind:
+      if (!anything) return;
+      load();
+      return look_behind(view, rows);
+    case SweepStep::kAccept:
+      if (anything) load();
+      return accept(active_idx, rows, anything);
+  }
+}
+
+void Pipeline::grow_todo() {
+  workspace_.begin_stage("select");
+  const int radius = options_.support.radius;
+  if (radius > 0)
+    workspace_.grow_todo(shape().rows(), radius, of_view_.todo, of_view_.bounds,
+                         of_view_.grown_todo, of_view_.grown_bounds);
+}
+
+// Scores of rows that are held and not there yet, in pieces.
+void Pipeline::score(int view, RowRange rows, ScoreViews views, const Map<std::uint8_t>& todo,
+                     const Map<HypothesisBounds>& bounds) {
+  workspace_.begin_stage("score");
+  const double row_samples =
+      double(shape().width) * hypotheses_.count * double(partners_[view].size());
+  const int most = std::max(int(kSamplesAtOnce / row_samples), 16);
+  for (int v = rows.begin; v < rows.end; v += most) {
+    const RowRange piece{v, std::min(v + most, rows.end)};
+    if (options_.score.gradient)
+      workspace_.robust_score(view, piece, todo, bounds, views);
+    else
+      workspace_.density_score(view, piece, todo, bounds);
+    if (piece.end < rows.end) {
+      workspace_.keep_pace();
       control_.throw_if_cancelled();
-      if (count(look.counts, strip) > 0) score_strip(view, strip, look);
     }
   }
 }
 
-void Pipeline::score_strip(int view, RowRange rows, const Look& look) {
+void Pipeline::look(int view, SweepStep step, RowRange rows) {
   const int height = shape().height, radius = options_.support.radius;
-  const Map<std::uint8_t>& todo = *look.todo;
-  const RowRange supported = grown(rows, look.scanline ? kScanlineReach : 0, height);
+  const bool scanline = level_ == 0 && options_.support.scanline;
+  const bool few =
+      options_.support.slanted && level_ == 0 && few_first(options_, int(partners_[view].size()));
+  const RowRange supported = grown(rows, scanline ? kScanlineReach : 0, height);
   const RowRange scored = grown(supported, radius, height);
-  if (scored != scored_rows_) {
-    workspace_.begin_stage("score");
-    const auto& score_todo = radius > 0 ? of_view_.grown_todo : todo;
-    const auto& score_bounds = radius > 0 ? of_view_.grown_bounds : of_view_.bounds;
-    if (options_.score.gradient)
-      workspace_.robust_score(view, scored, score_todo, score_bounds, look.views);
-    else
-      workspace_.density_score(view, scored, score_todo, score_bounds);
-    scored_rows_ = scored;
+  const auto& score_todo = radius > 0 ? of_view_.grown_todo : of_view_.todo;
+  const auto& score_bounds = radius > 0 ? of_view_.grown_bounds : of_view_.bounds;
+  const ScoreViews views =
+      few && step != SweepStep::kLastLook ? ScoreViews::kFirst : ScoreViews::kAll;
+  const bool keeps = plan_.levels[level_].keeps_scores;
+  if (step == SweepStep::kLook && keeps) {
+    // Those below what the slanted look will ask for next go.
+    const int wanted = std::max(first_scores_.end, scored.begin);
+    const RowRange held{std::min(scored.begin, slanted_scores_begin()), scored.end};
+    workspace_.hold_scores(kFirstScores, held);
+    score(view, {wanted, scored.end}, views, score_todo, score_bounds);
+    first_scores_ = held;
+  } else if (step == SweepStep::kSlantedLook && keeps) {
+    workspace_.hold_scores(kFirstScores, first_scores_);
+  } else {
+    const int volume = plan_.levels[level_].strip_rows >= height ? kFirstScores : kNewScores;
+    workspace_.hold_scores(volume, {});
+    workspace_.hold_scores(volume, scored);
+    score(view, scored, views, score_todo, score_bounds);
   }
-  if (radius > 0) {
-    workspace_.begin_stage("support");
-    if (look.with_slopes)
-      workspace_.slanted_support(view, supported, todo, of_view_.bounds, of_view_.slopes);
-    else
-      workspace_.score_support(view, supported, todo, of_view_.bounds);
-  }
-  if (look.scanline) {
+  support(view, supported, of_view_.todo, step != SweepStep::kLook);
+  if (scanline) {
     workspace_.begin_stage("scanline");
-    workspace_.scanline(view, rows, todo);
+    workspace_.scanline(view, rows, of_view_.todo);
   }
   workspace_.begin_stage("winner");
   const auto winners = strip<float>(0, rows), contrast = strip<float>(1, rows);
-  workspace_.winner(rows, todo, of_view_.bounds, winners, contrast);
-  if (look.views == ScoreViews::kHalfPlanes)
-    step_back(rows, todo, winners, contrast);
-  else
-    take_winners(view, rows, todo, winners, contrast);
+  workspace_.winner(rows, of_view_.todo, of_view_.bounds, winners, contrast);
+  take_winners(view, rows, winners, contrast);
 }
 
-void Pipeline::take_winners(int view, RowRange rows, const Map<std::uint8_t>& todo,
-                            const Map<float>& winners, const Map<float>& contrast) {
+int Pipeline::slanted_scores_begin() const {
+  const auto stages = sweep_stages(options_, level_, 0);
+  constexpr std::size_t kSlanted = 3;
+  if (stages.size() <= kSlanted) return shape().height;
+  const int reach = (options_.support.scanline ? kScanlineReach : 0) + options_.support.radius;
+  return std::max(progress_of_stages_[kSlanted] - reach, 0);
+}
+
+void Pipeline::support(int view, RowRange rows, const Map<std::uint8_t>& todo, bool along_slopes) {
+  if (options_.support.radius == 0) return;
+  workspace_.begin_stage("support");
+  if (along_slopes)
+    workspace_.slanted_support(view, rows, todo, of_view_.bounds, of_view_.slopes);
+  else
+    workspace_.score_support(view, rows, todo, of_view_.bounds);
+}
+
+void Pipeline::look_behind(int view, RowRange rows) {
+  Maps& maps = of_view_;
+  const RowRange scored = grown(rows, options_.support.radius, shape().height);
+  workspace_.begin_stage("select");
+  workspace_.grow_todo(scored, options_.support.radius, maps.beside, maps.bounds, maps.behind_todo,
+                       maps.behind_bounds);
+  const int volume = plan_.levels[level_].strip_rows >= shape().height ? kFirstScores : kNewScores;
+  workspace_.hold_scores(volume, {});
+  workspace_.hold_scores(volume, scored);
+  score(view, scored, ScoreViews::kHalfPlanes, maps.behind_todo, maps.behind_bounds);
+  support(view, rows, maps.beside, true);
+  workspace_.begin_stage("winner");
+  const auto winners = strip<float>(0, rows), contrast = strip<float>(1, rows);
+  const auto best = strip<float>(2, rows), own = strip<float>(3, rows);
+  workspace_.winner(rows, maps.beside, maps.bounds, winners, contrast);
+  workspace_.score_of_estimate(rows, maps.beside, winners, best);
+  workspace_.score_of_estimate(rows, maps.beside, maps.disparity, own);
+  workspace_.step_back(rows, kFarther * float(hypotheses_.step()), winners, contrast, best, own,
+                       maps.disparity, maps.confidence);
+}
+
+void Pipeline::take_winners(int view, RowRange rows, const Map<float>& winners,
+                            const Map<float>& contrast) {
   Map<float> best, edges;
   if (options_.winner.min_relief > 0) {
     best = strip<float>(2, rows);
-    workspace_.score_of_estimate(rows, todo, winners, best);
+    workspace_.score_of_estimate(rows, of_view_.todo, winners, best);
   }
   if (options_.winner.weigh_by_edge) {
     edges = strip<float>(3, rows);
     workspace_.edge_confidence(view, rows, edges);
   }
-  workspace_.take_winners(rows, is_last_level(), todo, of_view_.bounds, winners, contrast, best,
-                          edges, of_view_.disparity, of_view_.confidence);
-}
-
-void Pipeline::step_back(RowRange rows, const Map<std::uint8_t>& todo, const Map<float>& winners,
-                         const Map<float>& contrast) {
-  const auto best = strip<float>(2, rows), own = strip<float>(3, rows);
-  workspace_.score_of_estimate(rows, todo, winners, best);
-  workspace_.score_of_estimate(rows, todo, of_view_.disparity, own);
-  workspace_.step_back(rows, kFarther * float(hypotheses_.step()), winners, contrast, best, own,
-                       of_view_.disparity, of_view_.confidence);
-}
-
-void Pipeline::smooth_disparity(int view) {
-  for (const RowRange band : bands()) {
-    load_band(view, band);
-    workspace_.begin_stage("median");
-    workspace_.bilateral_median(view, band, options_.winner.median_radius,
-                                options_.winner.median_tolerance, of_view_.disparity,
-                                of_view_.smooth);
-  }
-}
-
-void Pipeline::ray_means(int view) {
-  for (const RowRange band : bands()) {
-    load_band(view, band);
-    workspace_.begin_stage("ray means");
-    workspace_.ray_mean(view, band, of_view_.grown_todo, of_view_.smooth, of_view_.means);
-  }
+  workspace_.take_winners(rows, is_last_level(), of_view_.todo, of_view_.bounds, winners, contrast,
+                          best, edges, of_view_.disparity, of_view_.confidence);
 }
 
 void Pipeline::see_means(bool see) {
+  if (see == sees_means_) return;
   sees_means_ = see;
   if (see)
     workspace_.replace_reference(of_view_.means);
   else
     workspace_.restore_reference();
-}
-
-void Pipeline::fit_slopes(int view) {
-  for (const RowRange band : bands()) {
-    if (count(todo_counts_, band) == 0) continue;
-    load_band(view, band);
-    workspace_.begin_stage("slopes");
-    workspace_.slope_fit(view, band, of_view_.todo, of_view_.smooth, of_view_.slopes);
-  }
 }
 
 }  // namespace gigaray

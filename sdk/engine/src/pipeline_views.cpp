@@ -40,9 +40,9 @@ bool Pipeline::find_todo(int active_idx) {
   bool cracked = level_ == 0 && active_idx > 0 && propagation.crack_width > 0;
   if (cracked) {
     constexpr float kSameSurface = 3;  // hypotheses
-    workspace_.unpack_estimates(all, estimates, maps.smooth, maps.more_confidence);
+    workspace_.unpack_estimates(all, estimates, maps.accepted, maps.more_confidence);
     workspace_.close_cracks(all, propagation.crack_width, kSameSurface * float(hypotheses_.step()),
-                            maps.smooth, maps.more_confidence, maps.disparity, maps.confidence,
+                            maps.accepted, maps.more_confidence, maps.disparity, maps.confidence,
                             estimates);
     state.estimates.close(all, active_idx, estimates);
     cracked = count(workspace_.count_estimates(maps.disparity), all) > 0;
@@ -68,32 +68,21 @@ bool Pipeline::find_todo(int active_idx) {
   return count(todo_counts_, all) > 0;
 }
 
-void Pipeline::accept_view(int active_idx) {
+void Pipeline::accept(int active_idx, RowRange rows, bool anything) {
   const int view = active_[active_idx];
   Maps& maps = of_view_;
-  const Map<float>& accepted = maps.smooth;
+  const Map<float>& accepted = maps.accepted;
   const float threshold =
       is_last_level() ? -std::numeric_limits<float>::infinity() : options_.winner.min_confidence;
-  const bool one_band = bands().size() == 1;
-  for (const RowRange band : bands()) {
-    if (count(todo_counts_, band) == 0) {
-      workspace_.accept(band, threshold, maps.todo, maps.confidence, accepted);
-      continue;
-    }
-    load_band(view, band);
-    workspace_.begin_stage("median");
-    workspace_.bilateral_median(view, band, options_.winner.median_radius,
+  workspace_.begin_stage("median");
+  if (anything)
+    workspace_.bilateral_median(view, rows, options_.winner.median_radius,
                                 options_.winner.median_tolerance, maps.disparity, accepted);
-    workspace_.accept(band, threshold, maps.todo, maps.confidence, accepted);
-    workspace_.begin_stage("radiance");
-    workspace_.mean_radiance(view, band, accepted, maps.radiance);
-    propagate(active_idx, band);
-    if (one_band) clear_bars(active_idx, band);
-  }
-  if (!one_band)
-    for (const RowRange band : bands())
-      if (count(todo_counts_, band) > 0) clear_bars(active_idx, band);
-  collect_tuples(view);
+  workspace_.accept(rows, threshold, maps.todo, maps.confidence, accepted);
+  if (!anything) return;
+  workspace_.begin_stage("radiance");
+  workspace_.mean_radiance(view, rows, accepted, maps.radiance);
+  propagate(active_idx, rows);
 }
 
 void Pipeline::propagate(int active_idx, RowRange band) {
@@ -106,27 +95,30 @@ void Pipeline::propagate(int active_idx, RowRange band) {
   RowsOnDevice bars;
   if (finished > 0) {
     bars = state.bars.open(reached);
-    workspace_.set_bars(view, band, of_view_.smooth, reached, finished, estimates, bars);
+    workspace_.set_bars(view, band, of_view_.accepted, reached, finished, estimates, bars);
   }
-  workspace_.propagation(view, band, of_view_.smooth, of_view_.confidence, of_view_.radiance,
+  workspace_.propagation(view, band, of_view_.accepted, of_view_.confidence, of_view_.radiance,
                          reached, finished, bars, estimates);
   if (finished > 0) state.bars.close(reached, bars);
   state.estimates.close(reached, estimates);
 }
 
-void Pipeline::clear_bars(int active_idx, RowRange band) {
+void Pipeline::clear_bars(int active_idx) {
   LevelState& state = levels_[level_];
   const int view = active_[active_idx];
   if (state.bars.empty() || active_idx == 0) return;
-  const RowRange reached = rows_needed(view, band);
-  const RowsOnDevice bars = state.bars.open(reached);
-  workspace_.clear_bars(view, band, of_view_.smooth, reached, active_idx, bars);
-  state.bars.close(reached, bars);
+  for (const RowRange band : bands()) {
+    if (count(todo_counts_, band) == 0) continue;
+    const RowRange reached = rows_needed(view, band);
+    const RowsOnDevice bars = state.bars.open(reached);
+    workspace_.clear_bars(view, band, of_view_.accepted, reached, active_idx, bars);
+    state.bars.close(reached, bars);
+  }
 }
 
 void Pipeline::collect_tuples(int view) {
   workspace_.begin_stage("tuples");
-  constexpr int kMostAtOnce = 1 << 20;
+  constexpr int kMostAtOnce = 1 << 18;
   const int height = shape().height;
   for (RowRange rows{0, 0}; rows.begin < height; rows.begin = rows.end) {
     int most = 0;
@@ -138,7 +130,7 @@ void Pipeline::collect_tuples(int view) {
       tuple_memory_.reset();
       tuple_memory_ = workspace_.allocate(bytes);
     }
-    const int found = workspace_.compact_tuples(view, rows, of_view_.smooth, of_view_.confidence,
+    const int found = workspace_.compact_tuples(view, rows, of_view_.accepted, of_view_.confidence,
                                                 of_view_.radiance, *tuple_memory_);
     take_fresh_tuples();  // those before are there, too
     fresh_tuples_.resize(std::size_t(found));

@@ -368,6 +368,7 @@ ScoreCurve Estimator::probe(const LightField& light_field, const DepthOptions& o
     }
   workspace->put(window, todo);
   workspace->put(tested, bounds);
+  workspace->hold_scores(0, strip);
   if (run.options.score.gradient)
     workspace->robust_score(view_idx, strip, todo, bounds, ScoreViews::kAll);
   else

@@ -97,8 +97,14 @@ class Workspace {
   virtual void read(const Memory& memory, std::span<std::byte> data, std::size_t offset = 0) = 0;
   /// Does not wait: what is read is there after the next read(), until when `data` must live.
   virtual void read_later(const Memory& memory, std::span<std::byte> data) = 0;
+  /// Memory as the host sees it, until unmap(); no step may use it meanwhile. Waits. To fill it:
+  /// what it had is lost.
+  virtual std::span<std::byte> map(Memory& memory, bool to_fill) = 0;
+  virtual void unmap(Memory& memory, std::span<std::byte> mapped) = 0;
   /// Waits for all steps.
   virtual void finish() = 0;
+  /// Waits for the steps before the last call, so that the host does not run far ahead.
+  virtual void keep_pace() = 0;
   /// Does the device work in the host's memory?
   virtual bool shares_host_memory() const = 0;
   virtual const Traffic& traffic() const = 0;
@@ -145,8 +151,10 @@ class Workspace {
   /// other pixels stay as they are. means: row v · channels() + c holds channel c of row v.
   virtual void ray_mean(int ref, RowRange rows, const Map<std::uint8_t>& wanted,
                         const Map<float>& disparity, const Map<float>& means) = 0;
-  /// Fills in the gradients of means and lets them stand for the pixels of the reference view in
-  /// the steps that look at it alone, until restore_reference(); what other views show stays.
+  /// Gradients of means, from the colours of their rows and of one more on both sides.
+  virtual void mean_gradients(RowRange rows, const Map<float>& means) = 0;
+  /// Lets means stand for the pixels of the reference view in the steps that look at it alone,
+  /// until restore_reference(); what other views show stays.
   virtual void replace_reference(const Map<float>& means) = 0;
   virtual void restore_reference() = 0;
 
@@ -192,14 +200,17 @@ class Workspace {
   virtual std::vector<int> count_estimates(const Map<float>& estimates) = 0;
 
   // ---- Scores -----------------------------------------------------------------------------------
-  /// Scores of `rows` where todo, kept until the next call of one of these two: the paper's,
+  /// From now on the scores of these rows are held in one of two volumes, 0 or 1; what it has of
+  /// them stays. Steps on scores work on it.
+  virtual void hold_scores(int volume, RowRange rows) = 0;
+  /// Scores of `rows`, which are held, where todo: the paper's,
   virtual void density_score(int ref, RowRange rows, const Map<std::uint8_t>& todo,
                              const Map<HypothesisBounds>& bounds) = 0;
   /// the robust one of colour and gradient (ScoreOptions::gradient).
   virtual void robust_score(int ref, RowRange rows, const Map<std::uint8_t>& todo,
                             const Map<HypothesisBounds>& bounds, ScoreViews views) = 0;
-  /// Makes supported scores for `rows` out of those of the last call above, which cover
-  /// support.radius rows more on both sides or end at the edge of the picture.
+  /// Makes supported scores for `rows` out of those that are held, which cover support.radius rows
+  /// more on both sides or end at the edge of the picture.
   virtual void score_support(int ref, RowRange rows, const Map<std::uint8_t>& todo,
                              const Map<HypothesisBounds>& bounds) = 0;
   /// The same along the slope of the surface. All hypotheses were tested.

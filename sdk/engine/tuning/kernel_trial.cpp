@@ -133,6 +133,7 @@ std::unique_ptr<TrialBench> KernelTrial::make_bench(std::unique_ptr<Workspace> w
   bench->small = {device.allocate(rows_of_views * 3 * shape_.width * sizeof(float)), 0,
                   num_views()};
   load(*bench);
+  device.hold_scores(0, rows());
   return bench;
 }
 

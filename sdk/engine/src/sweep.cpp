@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Gigaray authors
+#include "sweep.h"
+
+#include <algorithm>
+
+#include "workspace.h"
+
+namespace gigaray {
+namespace {
+
+// So many views make a second scoring cheaper than a first with all of them.
+constexpr int kManyViews = 160;
+
+}  // namespace
+
+std::vector<SweepStage> sweep_stages(const DepthOptions& options, int level, int partners) {
+  const SupportOptions& support = options.support;
+  const int median = options.winner.median_radius;
+  // Coarser levels have too few pixels, and test too few hypotheses, for more than one look.
+  const bool finest = level == 0, again = finest && support.slanted;
+  const bool scanline = finest && support.scanline;
+  const int looks_at = scanline ? kScanlineReach : 0, multiple = scanline ? kScanlineBlock : 1;
+  std::vector<SweepStage> stages{{SweepStep::kLook, 0, multiple}};
+  if (again) {
+    stages.push_back({SweepStep::kSmooth, median, 1});
+    stages.push_back({SweepStep::kSlopes, kSlopeReach, 1});
+    // Its lag keeps what smooths again away from what the slopes before still look at.
+    stages.push_back({SweepStep::kSlantedLook, std::max(looks_at, kSlopeReach + 1), multiple});
+    // Where the last look has to score anew anyway, or takes very many views, a few do for the
+    // first.
+    if (few_first(options, partners)) {
+      stages.push_back({SweepStep::kSmoothAgain, median, 1});
+      if (options.score.ray_mean) {
+        stages.push_back({SweepStep::kMeans, 0, 1});
+        stages.push_back({SweepStep::kMeanGradients, 1, 1});
+      }
+      // A row more: the slanted look still looks at the slopes before.
+      stages.push_back({SweepStep::kSlopesAgain, kSlopeReach + 1, 1});
+      stages.push_back({SweepStep::kLastLook, looks_at + support.radius + 1, multiple});
+    }
+    if (support.half_planes) {
+      stages.push_back({SweepStep::kBeside, kBesideJump + 1, 1});
+      stages.push_back({SweepStep::kLookBehind, 2 * support.radius, 1});
+    }
+  }
+  stages.push_back({SweepStep::kAccept, median, 1});
+  return stages;
+}
+
+bool few_first(const DepthOptions& options, int partners) {
+  return options.score.gradient && (options.score.ray_mean || partners > kManyViews);
+}
+
+int sweep_lag(const std::vector<SweepStage>& stages) {
+  int lag = 0;
+  for (const SweepStage& stage : stages) lag += stage.reach + stage.multiple - 1;
+  return lag;
+}
+
+int score_lag(const std::vector<SweepStage>& stages, const SupportOptions& support) {
+  int lag = 0;
+  for (const SweepStage& stage : stages) {
+    if (stage.step != SweepStep::kLook) lag += stage.reach + stage.multiple - 1;
+    if (stage.step == SweepStep::kSlantedLook)
+      return lag + 2 * ((support.scanline ? kScanlineReach : 0) + support.radius);
+  }
+  return 0;
+}
+
+}  // namespace gigaray

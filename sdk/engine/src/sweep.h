@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Gigaray authors
+#pragma once
+
+#include <vector>
+
+#include "estimates.h"
+#include "gigaray/depth_options.h"
+
+namespace gigaray {
+
+/// What is done with a view, in this order.
+enum class SweepStep {
+  kLook,         ///< scores, support, winners
+  kSmooth,       ///< median of the winners
+  kSlopes,       ///< of what is smooth
+  kSlantedLook,  ///< support along the slopes, of the same scores
+  kSmoothAgain,  ///< of the slanted look
+  kMeans,        ///< along rays
+  kMeanGradients,
+  kSlopesAgain,
+  kLastLook,    ///< scores of all views, against the means
+  kBeside,      ///< what lies beside jumps
+  kLookBehind,  ///< with the best half of the views
+  kAccept       ///< median, radiance, propagation
+};
+
+/// A step of the sweep over a view and how far it lags.
+struct SweepStage {
+  SweepStep step = SweepStep::kLook;
+  int reach = 0;     ///< rows beyond its own that it wants of the stage before
+  int multiple = 1;  ///< its first row is a multiple of this
+};
+
+/// Where the nearer surface can hide a point from some views, px.
+inline constexpr int kBesideJump = 10;
+
+/// Does a first look take few views only? partners: how many views a view is compared with.
+bool few_first(const DepthOptions& options, int partners);
+
+/// The steps of a view.
+std::vector<SweepStage> sweep_stages(const DepthOptions& options, int level, int partners);
+
+/// Most rows between the first and the last stage.
+int sweep_lag(const std::vector<SweepStage>& stages);
+
+/// Rows from what the slanted look has done to what the first look has scored, beside those of a
+/// strip; 0 where no scores are looked at twice.
+int score_lag(const std::vector<SweepStage>& stages, const SupportOptions& support);
+
+}  // namespace gigaray
