@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The Gigaray authors
 // What devices without doubles or without 64-bit atomics run, on a device that has both.
 #include "engine/same_outcome.h"
+#include "support/errors.h"
 
 namespace gigaray::testing_support {
 namespace {
@@ -173,6 +174,31 @@ std::string name_of(const testing::TestParamInfo<ParityCase>& info) {
   return std::to_string(info.param.width) + "x" + std::to_string(info.param.height);
 }
 INSTANTIATE_TEST_SUITE_P(Sizes, ParityWithoutDoubles, testing::ValuesIn(parity_cases()), name_of);
+
+TEST(LocalMemory, GroupsAreMadeSmallEnoughForIt) {
+  // A window of 17 x 17 in groups of 64 takes 72 KiB, more than GPUs have for a group.
+  const ParityCase size{33, 24, {11, 12}, BandEncoding::kFloat, 1};
+  const opencl::TuningOverrides gpu{{"bilateral_median", {{"LANES", 1}, {"GROUP", 64}}},
+                                    {opencl::kDeviceParts, {{"LOCAL_MEMORY", 48 << 10}}}};
+  ParityBench<EpiSampler> bench(size, paper_options(), irregular_row(), {-1.31, 1.73, 19}, gpu);
+  const auto in = bench.random_disparity(bench.around(8), 0.6);
+  StripMap<float> expected(bench.width(), bench.rows()), actual = expected;
+  bench.reference->bilateral_median(2, bench.rows(), 8, 0.1f, in, expected);
+  bench.opencl->bilateral_median(2, bench.rows(), 8, 0.1f, in, actual);
+  const Difference difference = compare(expected, actual, bench.rows());
+  EXPECT_EQ(difference.largest, 0);
+  EXPECT_EQ(difference.one_sided, 0);
+}
+
+TEST(LocalMemory, TooLittleForOneWorkItemIsAnErrorThatNamesTheKernel) {
+  const opencl::TuningOverrides tiny{{opencl::kDeviceParts, {{"LOCAL_MEMORY", 256}}}};
+  ParityBench<EpiSampler> bench({33, 24, {11, 12}, BandEncoding::kFloat, 1}, paper_options(),
+                                irregular_row(), {-1.31, 1.73, 19}, tiny);
+  const auto in = bench.random_disparity(bench.around(8), 0.6);
+  StripMap<float> out(bench.width(), bench.rows());
+  expect_error(ErrorCode::kDevice, {"bilateral_median", "local memory", "1 KiB"},
+               [&] { bench.opencl->bilateral_median(2, bench.rows(), 8, 0.1f, in, out); });
+}
 
 }  // namespace
 }  // namespace gigaray::testing_support

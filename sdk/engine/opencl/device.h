@@ -49,6 +49,7 @@ class Device {
   /// As if it had no doubles, or no 64-bit atomics: so that any device can stand for such a one.
   void hide_fp64() { hide().has_fp64 = false; }
   void hide_int64_atomics() { hide().has_int64_atomics = false; }
+  void hide_local_memory(std::size_t but_bytes) { hide().local_memory = but_bytes; }
   /// What was given to open(), or GIGARAY_DEVICE if that was empty.
   const std::string& selection() const { return opened_->selection; }
   const cl::Device& id() const { return opened_->id; }

@@ -140,11 +140,11 @@ void DeviceWorkspace::step_back(RowRange rows, float farther, const Map<float>& 
 void DeviceWorkspace::bilateral_median(int ref, RowRange rows, int radius, float tolerance,
                                        const Map<float>& in, const Map<float>& out) {
   const bool bilateral = std::isfinite(tolerance);
-  LaneKernel& kernel =
-      lane_kernel("bilateral_median", define("RADIUS", radius) + define("BILATERAL", bilateral));
+  const std::size_t window = std::size_t(2 * radius + 1) * (2 * radius + 1);
+  LaneKernel& kernel = lane_kernel(
+      "bilateral_median", define("RADIUS", radius) + define("BILATERAL", bilateral), "", window);
   // A plain median looks at no colour, but a kernel argument must be some buffer.
   const OwnPixels own = bilateral ? reference_pixels(ref) : OwnPixels{table_buffer_, band_, 0};
-  const std::size_t window = std::size_t(2 * radius + 1) * (2 * radius + 1);
   kernel.kernel.set_args(own.buffer, own.band, own_strip(own.view, rows), buffer_of(in),
                          bilateral ? tolerance : 0.0f, buffer_of(out), kernel.vectors(window));
   kernel.run(band_.width, rows.size());

@@ -131,6 +131,7 @@ void DeviceWorkspace::scanline(int ref, RowRange rows, const Map<std::uint8_t>& 
   LaneKernel& kernel = lane_kernel("scanline", "");
   Buffer& paths = path_scores_.at_least(device_, volume_bytes(score_rows_));
   const std::size_t states = 2 * (hypotheses_.pitch + 2 * kScanlineMargin) + kernel.group;
+  kernels_.check_local_memory("scanline", states * sizeof(float));
   const int blocks = (rows.size() + kScanlineBlock - 1) / kScanlineBlock;
   const int directions[4][2] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}};
   for (int i = 0; i < 4; ++i) {

@@ -191,8 +191,8 @@ class DeviceWorkspace : public Workspace {
     return kernels_.plain(file, entry, options);
   }
   LaneKernel& lane_kernel(const std::string& file, const std::string& options,
-                          const std::string& entry = "") {
-    return kernels_.lanes(file, options, entry);
+                          const std::string& entry = "", std::size_t vectors = 0) {
+    return kernels_.lanes(file, options, entry, vectors);
   }
   /// A kernel of kMapSteps with a work-item per pixel, or per row.
   template <class... Args>

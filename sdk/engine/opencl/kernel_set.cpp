@@ -30,18 +30,31 @@ Kernel& KernelSet::plain(const std::string& file, const std::string& entry,
   return it->second;
 }
 
-LaneKernel& KernelSet::lanes(const std::string& file, const std::string& options,
-                             std::string entry) {
+LaneKernel& KernelSet::lanes(const std::string& file, const std::string& options, std::string entry,
+                             std::size_t vectors) {
   if (entry.empty()) entry = file;
   auto [it, is_new] = lanes_.try_emplace(entry + options);
   if (is_new) {
-    const Tuning tuning = tuning_of(file);
+    Tuning tuning = tuning_of(file);
+    const std::size_t item = vectors * std::size_t(tuning.at("LANES")) * sizeof(float);
+    while (tuning.at("GROUP") > 1 && item * tuning.at("GROUP") > device_.info().local_memory)
+      tuning["GROUP"] /= 2;
+    check_local_memory(entry, item * std::size_t(tuning.at("GROUP")));
     const auto stage = tuning.find("STAGE"), units = tuning.find("UNITS");
     it->second = {build(file, entry, defines(tuning) + options), tuning.at("LANES"),
                   tuning.at("GROUP"), units == tuning.end() ? 1 : units->second,
                   stage != tuning.end() && stage->second != 0};
   }
   return it->second;
+}
+
+void KernelSet::check_local_memory(const std::string& entry, std::size_t bytes) const {
+  const DeviceInfo& info = device_.info();
+  if (bytes <= info.local_memory) return;
+  const auto kib = [](std::size_t size) { return std::to_string((size + 1023) / 1024) + " KiB"; };
+  throw Error(ErrorCode::kDevice, "kernel " + entry + " needs " + kib(bytes) +
+                                      " of local memory, device " + info.name + " has " +
+                                      kib(info.local_memory) + "; use another --device");
 }
 
 Tuning KernelSet::tuning_of(const std::string& kernel) const {

@@ -31,7 +31,12 @@ class KernelSet {
   /// A kernel without lanes. file: without .cl.
   Kernel& plain(const std::string& file, const std::string& entry, const std::string& options);
   /// A kernel with the lanes and groups of its tuning. entry: empty, as the file.
-  LaneKernel& lanes(const std::string& file, const std::string& options, std::string entry);
+  /// vectors: of local memory that every work-item wants; groups are made small enough for it.
+  /// Throws Error(kDevice) where the device has too little for one work-item.
+  LaneKernel& lanes(const std::string& file, const std::string& options, std::string entry,
+                    std::size_t vectors);
+  /// Throws Error(kDevice) where the device has less local memory.
+  void check_local_memory(const std::string& entry, std::size_t bytes) const;
 
  private:
   Kernel build(const std::string& file, const std::string& entry, const std::string& options);

@@ -151,7 +151,7 @@ class Planner {
   double view_map_bytes() const {
     const SupportOptions& support = options_.support;
     return double(map_pitch(light_field_.width)) * light_field_.height *
-           (36 + (support.slanted ? 16 : 0) + (options_.score.ray_mean ? 20 : 0));
+           (46 + (support.slanted ? 20 : 0) + (options_.score.ray_mean ? 20 : 0));
   }
   double map_bytes() const {
     const double view_maps = device_.shares_host_memory ? view_map_bytes() : 0;
