@@ -121,19 +121,18 @@ void Pipeline::grow_todo() {
 void Pipeline::score(int view, RowRange rows, ScoreViews views, const Map<std::uint8_t>& todo,
                      const Map<HypothesisBounds>& bounds) {
   workspace_.begin_stage("score");
-  const double row_samples =
-      double(shape().width) * hypotheses_.count * double(partners_[view].size());
-  const int most = std::max(int(kSamplesAtOnce / row_samples), 16);
-  for (int v = rows.begin; v < rows.end; v += most) {
-    const RowRange piece{v, std::min(v + most, rows.end)};
+  const double samples_per_pixel = double(hypotheses_.count) * double(partners_[view].size());
+  for (RowRange piece{rows.begin, rows.begin}; piece.end < rows.end; piece.begin = piece.end) {
+    double samples = 0;
+    while (piece.end < rows.end && samples < kSamplesAtOnce)
+      samples += samples_per_pixel * todo_counts_[piece.end++];
     if (options_.score.gradient)
       workspace_.robust_score(view, piece, todo, bounds, views);
     else
       workspace_.density_score(view, piece, todo, bounds);
-    if (piece.end < rows.end) {
-      workspace_.keep_pace();
-      control_.throw_if_cancelled();
-    }
+    if (piece.end == rows.end) continue;
+    workspace_.keep_pace();
+    control_.throw_if_cancelled();
   }
 }
 

@@ -15,6 +15,7 @@
 #include "gigaray/smoothing.h"
 #include "inverse_depths.h"
 #include "make_workspace.h"
+#include "opencl/cache_folder.h"
 #include "opencl/ready_kernels.h"
 #include "pipeline.h"
 #include "reconstruction_impl.h"
@@ -250,6 +251,9 @@ Reconstruction Estimator::reconstruct(const LightField& light_field, const Depth
     if (device_) {
       job = kernel_job(run, device_->selection());
       impl->plan = plan_run(run, device_->selection(), limits_of(device_->info()));
+      if (!opencl::kernels_are_ready(job))
+        control.message(std::string("compiling kernels for this device") +
+                        (opencl::cache_folder() ? ", once" : ""));
     } else {
       impl->plan = plan_run(run, std::nullopt, kHost);
     }
