@@ -173,7 +173,9 @@ void DeviceWorkspace::winner(RowRange rows, const Map<std::uint8_t>& todo,
 void DeviceWorkspace::score_of_estimate(RowRange rows, const Map<std::uint8_t>& todo,
                                         const Map<float>& disparity, const Map<float>& scores) {
   GIGARAY_CHECK(rows.begin >= score_rows_.begin && rows.end <= score_rows_.end);
-  LaneKernel& kernel = lane_kernel("winner", "", "score_of_estimate");
+  // The options of winner(), so that both are one program.
+  LaneKernel& kernel =
+      lane_kernel("winner", define("REFINE", setup_.options.winner.refine), "score_of_estimate");
   kernel.kernel.set_args(strip(rows), hypotheses_, buffer_of(todo), winner_scores_->buffer,
                          score_rows_.begin, buffer_of(disparity), disparity.rows().begin,
                          buffer_of(scores));
