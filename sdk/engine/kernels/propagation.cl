@@ -99,6 +99,7 @@ static inline void clear_bar(volatile __global float* bar) {
 #if ATOMIC
 #define FOR_EACH_ARRIVAL(targets)                                    \
   const int u = get_global_id(0), row = get_global_id(1);            \
+  if (u >= p.width) return;                                          \
   if (isnan(disparity[view_index(strip, row, u)])) return;            \
   for (int target = 0; target < (targets); ++target)
 #else

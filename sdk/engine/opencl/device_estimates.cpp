@@ -25,8 +25,9 @@ Kernel& DeviceWorkspace::arrival_kernel(const std::string& entry) {
 }
 
 void DeviceWorkspace::run_arrivals(Kernel& kernel, RowRange rows) {
+  constexpr std::size_t kGroup = 64;
   if (device_.info().has_int64_atomics)
-    kernel.run(WorkSize(band_.width, rows.size()), WorkSize(1, 1));
+    kernel.run(WorkSize(round_up(band_.width, kGroup), rows.size()), WorkSize(kGroup, 1));
   else
     kernel.run(WorkSize(active_views_.size()), WorkSize(1));
 }
