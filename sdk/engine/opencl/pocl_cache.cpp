@@ -79,10 +79,10 @@ void PoclCache::remove_damaged_programs() const {
     for (std::string hash, name; lines >> hash && std::getline(lines >> std::ws, name);)
       recorded.emplace(name, hash);
 
-  std::set<fs::path> damaged;
+  std::set<fs::path> damaged, left_over;  // PoCL itself leaves an empty file at every start
   for_each_file(folder_, [&](const fs::path& file) {
     const fs::path program = program_of(file);
-    if (program == file) damaged.insert(file);
+    if (program == file) left_over.insert(file);
     if (!is_loaded(file) || damaged.contains(program)) return;
     const auto known = recorded.find(file.string());
     const auto content = read_file(folder_ / file);
@@ -93,6 +93,7 @@ void PoclCache::remove_damaged_programs() const {
   });
   for (const auto& [missing, hash] : recorded) damaged.insert(program_of(missing));
   if (!damaged.empty()) forget_ready_kernels(folder_.parent_path());
+  damaged.merge(left_over);
   for (const fs::path& program : damaged) {
     std::error_code ignored;
     fs::remove_all(folder_ / program, ignored);
