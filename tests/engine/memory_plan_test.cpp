@@ -221,6 +221,10 @@ TEST(MemoryPlan, ADeviceWithMemoryOfItsOwnIsPlannedByIt) {
   EXPECT_EQ(middle.place, Place::kHost);
   EXPECT_GT(middle.forecast.bands, 1);
   EXPECT_GT(middle.forecast.memory_bytes, large.forecast.memory_bytes) << "of the host";
+  options.memory_bytes = 0.9e9;
+  EXPECT_EQ(plan_memory(light_field, options, kHypotheses, {80 * gib, 20 * gib, false}).place,
+            Place::kFile)
+      << "81 finished maps end with the host";
   options.memory_bytes = 1.3e9;
   EXPECT_EQ(plan_memory(light_field, options, kHypotheses, {3 * gib, gib, false}).place,
             Place::kFile);

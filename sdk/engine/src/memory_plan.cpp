@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include "finished_maps.h"
 #include "gigaray/memory_limit.h"
 #include "gigaray/parallel.h"
 #include "gigaray/samplers/any_sampler.h"
@@ -172,14 +173,14 @@ class Planner {
     result.place = place;
     const bool in_files = place == Place::kFile, staged = place != Place::kDevice;
     const double stores = in_files ? 0 : store_bytes();
-    const double on_host = device_.shares_host_memory || staged ? stores : 0;
+    const double on_host = device_.shares_host_memory || staged ? stores : passing_bytes();
     const double fixed = fixed_bytes(volume);
     if (!staged && largest_store() > device_.largest_buffer) return std::nullopt;
     // A device with memory of its own holds bands, scores and maps there; the host the rest.
     double room = limit - fixed - on_host;
     if (!device_.shares_host_memory) {
       if (room < 0) return std::nullopt;
-      room = device_memory() - score_bytes(volume) - view_map_bytes() - (stores - on_host);
+      room = device_memory() - score_bytes(volume) - view_map_bytes() - (staged ? 0 : stores);
     }
     double peak_band = 0;
     for (const LevelShape& shape : shapes_) {
@@ -262,6 +263,17 @@ class Planner {
     for (const LevelShape& shape : shapes_)
       stores += cost_of(shape, light_field_, options_, active_, band_views_, false).stores;
     return stores + kTuplesPerPixel * sizeof(RayTuple) * light_field_.width * light_field_.height;
+  }
+  /// What the host holds of a run that lies on a device with memory of its own: the pictures as
+  /// they are decoded; at the end finished maps and tuples.
+  double passing_bytes() const {
+    const double pixels = double(light_field_.width) * light_field_.height;
+    const double value_bytes = 3.0 * light_field_.pixels->bit_depth() / 8;
+    const double decoded =
+        pixels * light_field_.num_views() * (value_bytes + light_field_.pixels->has_mask());
+    const double finished =
+        pixels * (active_ * FinishedMaps::kPixelBytes + kTuplesPerPixel * sizeof(RayTuple));
+    return std::max(decoded, finished);
   }
   /// What the windows reach, a row for gradients, two for interpolation taps.
   int halo(const LevelShape& shape) const {
