@@ -36,8 +36,9 @@ struct LevelCost {
   double stores = 0;    // bytes of everything that is kept of the level
   double band_row = 0;  // bytes of one row of a band, on the device and beside it
   double reached_row =
-      0;                  // bytes of one row of estimates that rays of a band reach, brought for it
-  double row_floats = 0;  // bytes of one row in the band buffer
+      0;  // bytes of one row of estimates that rays of a band reach, brought for it
+  double reached_estimates = 0;  // the estimates among them
+  double row_floats = 0;         // bytes of one row in the band buffer
   double largest_store = 0;
 };
 
@@ -68,6 +69,7 @@ LevelCost cost_of(const LevelShape& shape, const LightField& light_field,
   if (staged) {
     cost.band_row += shape.width * n * (colour_bytes + 3.0);
     cost.reached_row = shape.width * active * kStagedBytes;
+    cost.reached_estimates = shape.width * active * sizeof(PackedEstimate);
   }
   return cost;
 }
@@ -285,8 +287,13 @@ class Planner {
   int fit_band(const LevelShape& shape, const LevelCost& cost, double room, int multiple,
                int lag) const {
     int band = shape.height;
-    while (band_bytes(shape, cost, band, lag) > room ||
-           loaded_rows(shape, band, lag) * cost.row_floats > device_.largest_buffer) {
+    // One buffer each.
+    const auto is_too_large = [&](int rows) {
+      return loaded_rows(shape, rows, lag) * cost.row_floats > device_.largest_buffer ||
+             (cost.reached_estimates > 0 &&
+              reached_rows(shape, rows, 0) * cost.reached_estimates > device_.largest_buffer);
+    };
+    while (band_bytes(shape, cost, band, lag) > room || is_too_large(band)) {
       // Halving keeps the number of bands, and with it the halo rows, small.
       const int fewer = band > 16 ? (band + 1) / 2 : band - 1;
       const int whole = (fewer + multiple - 1) / multiple * multiple;
