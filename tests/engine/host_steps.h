@@ -96,8 +96,8 @@ class HostSteps {
   void replace_reference(const StripMap<float>& means) {
     means_ = workspace_->make_map<float>(shape_.width, {0, shape_.height * channels()});
     workspace_->put(means, means_);
-    workspace_->mean_gradients(
-        {means.rows().begin / channels(), means.rows().end / channels()}, means_);
+    workspace_->mean_gradients({means.rows().begin / channels(), means.rows().end / channels()},
+                               means_);
     workspace_->replace_reference(means_);
   }
   void restore_reference() { workspace_->restore_reference(); }

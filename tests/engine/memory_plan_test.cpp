@@ -4,6 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
+#include "gigaray/samplers/unstructured_sampler.h"
 #include "support/analytic_field.h"
 #include "support/cameras.h"
 #include "support/errors.h"
@@ -193,6 +196,26 @@ TEST(MemoryPlan, UnstructuredViewsThatReachFarSayWhatHelps) {
   EXPECT_NO_THROW(plan_memory(far, options, hypotheses, DeviceLimits{}));
 }
 
+TEST(MemoryPlan, EstimatesThatABandReachesFitIntoOneBuffer) {
+  LightField light_field = column_of_cameras(100, 0.0005);
+  light_field.most_partners = 8;  // little of a band, and all views get depth
+  DepthOptions options = auto_options();
+  options.memory_bytes = 16384 * kMiB;
+  options.work_folder = "work";
+  const double largest = 400 * kMiB;
+  const HypothesisRange hypotheses{0, 1, 64};
+  const MemoryPlan plan = plan_memory(light_field, options, hypotheses, {0, largest, true});
+  ASSERT_NE(plan.place, Place::kDevice);
+  const int rows = plan.levels.front().band_rows, height = light_field.height;
+  const UnstructuredSampler sampler(light_field.cameras, light_field.most_partners);
+  for (int view = 0; view < light_field.num_views(); ++view)
+    for (int v = 0; v < height; v += rows) {
+      const RowRange band{v, std::min(v + rows, height)};
+      const double reached = sampler.rows_needed(view, band, hypotheses, height).size();
+      ASSERT_LE(reached * light_field.width * 100 * sizeof(PackedEstimate), 1.05 * largest);
+    }
+}
+
 TEST(MemoryPlan, FilesOnlyWhereMemoryDoesNotHoldTheStores) {
   // 4K, 50 views: one buffer of the device holds few rows of them, memory holds all.
   const LightField light_field = described(row_of_views(50), 3840, 2160);
@@ -221,6 +244,10 @@ TEST(MemoryPlan, ADeviceWithMemoryOfItsOwnIsPlannedByIt) {
   EXPECT_EQ(middle.place, Place::kHost);
   EXPECT_GT(middle.forecast.bands, 1);
   EXPECT_GT(middle.forecast.memory_bytes, large.forecast.memory_bytes) << "of the host";
+  options.memory_bytes = 0.9e9;
+  EXPECT_EQ(plan_memory(light_field, options, kHypotheses, {80 * gib, 20 * gib, false}).place,
+            Place::kFile)
+      << "81 finished maps end with the host";
   options.memory_bytes = 1.3e9;
   EXPECT_EQ(plan_memory(light_field, options, kHypotheses, {3 * gib, gib, false}).place,
             Place::kFile);

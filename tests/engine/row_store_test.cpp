@@ -51,20 +51,13 @@ TEST_P(RowStores, KeepWhatWasWritten) {
   EXPECT_EQ(std::accumulate(row.begin(), row.end(), 0), 0);
 }
 
-TEST_P(RowStores, OpenedRowsAreStoredByClose) {
-  RowStore store(9, 16, folder());
-  AlignedBytes scratch;
-  const RowRange rows{3, 6};
-  std::byte* opened = store.open(rows, scratch);
-  EXPECT_EQ(reinterpret_cast<std::uintptr_t>(opened) % 16, 0u);
-  std::memset(opened, 42, 3 * 16);
-  store.close(rows, opened);
-  std::uint8_t row[16];
-  for (int v = 0; v < 9; ++v) {
-    store.read(v, 0, 16, row);
-    EXPECT_EQ(row[0], rows.contains(v) ? 42 : 0);
-    EXPECT_EQ(row[15], rows.contains(v) ? 42 : 0);
-  }
+TEST(RowStore, RowsInMemoryAreOnePieceThatDriversNeedNotCopy) {
+  RowStore store(9, 16, "");
+  const std::uint8_t value = 42;
+  store.write(3, 15, 1, &value);
+  EXPECT_EQ(store.bytes().size(), 9u * 16);
+  EXPECT_EQ(reinterpret_cast<std::uintptr_t>(store.bytes().data()) % 64, 0u);
+  EXPECT_EQ(store.bytes()[3 * 16 + 15], std::byte(42));
 }
 
 TEST_P(RowStores, MoveTakesTheRowsAlong) {

@@ -69,7 +69,8 @@ void expect_little_traffic(const LightField& light_field) {
   // Down come the tuples, the maps and the small answers: pixels to do of every row.
   const std::size_t pitch = map_pitch(light_field.width);
   const std::size_t maps = std::size_t(views) * pitch * light_field.height * 9;
-  const std::size_t answers = std::size_t(views) * levels * (2 * light_field.height + 1) * sizeof(int);
+  const std::size_t answers =
+      std::size_t(views) * levels * (2 * light_field.height + 1) * sizeof(int);
   EXPECT_LE(all.bytes_down, tuples * sizeof(RayTuple) + maps + answers);
   EXPECT_GE(all.bytes_down, tuples * sizeof(RayTuple) + maps);
 }

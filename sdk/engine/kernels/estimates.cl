@@ -248,7 +248,7 @@ __kernel void fill_view(const StripParams strip, const int level, const int acti
   const size_t pixel = view_index(strip, row, u);
   const size_t above = (size_t)(v / 2) * coarse_pitch + GIGARAY_PAD + u / 2;
   const ulong estimate = estimates[active_index(strip, v, begin, active, active_count, u)];
-  disparity[pixel] = confidence[pixel] = NAN;
+  disparity[pixel] = confidence[pixel] = as_float(0x7fc00000);  // the NaN of the host, to the bit
   decided[pixel] = -1;
   if (has_shown &&
       !shown[((size_t)(v - shown_begin) * shown_views + shown_at) * shown_width + u])

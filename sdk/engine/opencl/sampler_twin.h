@@ -11,7 +11,7 @@
 
 namespace gigaray::opencl {
 
-/// What the backend needs of a sampler, whichever it is: of all views, or of those in a band; `ref`
+/// What a workspace needs of a sampler, whichever it is: of all views, or of those in a band; `ref`
 /// counts among them.
 struct SamplerTwin {
   std::string kernel_file;

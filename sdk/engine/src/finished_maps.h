@@ -22,6 +22,8 @@ struct LevelSearch {
 /// memory or in a file. Any number of threads may read.
 class FinishedMaps {
  public:
+  static constexpr std::size_t kPixelBytes = 2 * sizeof(float) + 1;
+
   FinishedMaps() = default;
   /// folder: for the file; empty: in memory.
   FinishedMaps(int views, int width, int height, const std::string& folder)
@@ -37,7 +39,6 @@ class FinishedMaps {
   void read(int view, int v, float* disparity, float* confidence, std::int8_t* level) const;
 
  private:
-  static constexpr std::size_t kPixelBytes = 2 * sizeof(float) + 1;
   int width_ = 0, height_ = 0;
   RowStore rows_;  ///< [view][v]: disparity, confidence, level
 };

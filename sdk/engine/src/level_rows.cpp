@@ -5,6 +5,8 @@
 #include <span>
 #include <utility>
 
+#include "gigaray/ray_sampler.h"
+
 namespace gigaray {
 
 LevelRows::LevelRows(Workspace& workspace, int rows, int views, std::size_t view_bytes, Place place,
@@ -23,19 +25,17 @@ LevelRows::LevelRows(Workspace& workspace, RowStore store, int rows, int views, 
       view_bytes_(store.row_bytes() / std::size_t(views)),
       store_(std::move(store)) {
   if (place != Place::kDevice) return;
-  AlignedBytes unused;
-  const std::span bytes(store_.open({0, rows}, unused), std::size_t(rows) * store_.row_bytes());
-  memory_ = workspace.adopt(bytes);
+  memory_ = workspace.adopt(store_.bytes());
   if (!workspace.shares_host_memory()) store_ = RowStore();
 }
 
-RowsOnDevice LevelRows::stage(RowRange rows, int views) {
-  const std::size_t bytes = std::size_t(rows.size()) * views * view_bytes_;
+RowsOnDevice LevelRows::stage(RowRange rows, std::size_t views, std::size_t view_bytes) {
+  const std::size_t bytes = std::size_t(rows.size()) * views * view_bytes;
   if (!staged_ || staged_->bytes() < bytes) {
     staged_.reset();
     staged_ = workspace_->allocate(bytes);
   }
-  return {staged_, rows.begin, views};
+  return {staged_, rows.begin, int(views)};
 }
 
 namespace {
@@ -65,7 +65,7 @@ class Mapped {
 
 RowsOnDevice LevelRows::open(RowRange rows) {
   if (memory_) return {memory_, 0, views_};
-  const RowsOnDevice opened = stage(rows, views_);
+  const RowsOnDevice opened = stage(rows, views_, view_bytes_);
   const Mapped mapped(*workspace_, *opened.memory, true);
   for (int v = rows.begin; v < rows.end; ++v)
     store_.read(v, 0, store_.row_bytes(),
@@ -76,7 +76,7 @@ RowsOnDevice LevelRows::open(RowRange rows) {
 RowsOnDevice LevelRows::open(RowRange rows, const std::vector<int>& views, std::vector<int>& at) {
   at = views;
   if (memory_ || int(views.size()) == views_) return open(rows);
-  const RowsOnDevice opened = stage(rows, int(views.size()));
+  const RowsOnDevice opened = stage(rows, views.size(), view_bytes_);
   const Mapped mapped(*workspace_, *opened.memory, true);
   std::byte* out = mapped.data();
   for (int v = rows.begin; v < rows.end; ++v)
@@ -84,7 +84,24 @@ RowsOnDevice LevelRows::open(RowRange rows, const std::vector<int>& views, std::
       store_.read(v, view * view_bytes_, view_bytes_, out);
       out += view_bytes_;
     }
-  for (std::size_t i = 0; i < at.size(); ++i) at[i] = int(i);
+  at = all_views(int(views.size()));
+  return opened;
+}
+
+RowsOnDevice LevelRows::open_coarse(RowRange rows, int shift, const std::vector<int>& views,
+                                    std::vector<int>& at) {
+  GIGARAY_CHECK(!memory_);
+  at = all_views(int(views.size()));
+  const std::size_t coarse_bytes = ((view_bytes_ - 1) >> shift) + 1;
+  const RowsOnDevice opened = stage(rows, views.size(), coarse_bytes);
+  const Mapped mapped(*workspace_, *opened.memory, true);
+  std::byte* out = mapped.data();
+  std::vector<std::byte> line(view_bytes_);
+  for (int v = rows.begin; v < rows.end; ++v)
+    for (const int view : views) {
+      store_.read(v << shift, view * view_bytes_, view_bytes_, line.data());
+      for (std::size_t i = 0; i < coarse_bytes; ++i) *out++ = line[i << shift];
+    }
   return opened;
 }
 
@@ -102,13 +119,16 @@ void LevelRows::close(RowRange rows, const RowsOnDevice& opened) {
                  mapped.data() + std::size_t(v - rows.begin) * store_.row_bytes());
 }
 
-void LevelRows::close(RowRange rows, int view, const ViewRows& opened) {
+void LevelRows::close(RowRange rows, const std::vector<int>& views, const RowsOnDevice& opened) {
   if (memory_) return;
-  if (opened.rows.stored_views == views_) return close(rows, opened.rows);
-  const Mapped mapped(*workspace_, *opened.rows.memory, false);
+  if (int(views.size()) == views_) return close(rows, opened);
+  const Mapped mapped(*workspace_, *opened.memory, false);
+  const std::byte* in = mapped.data();
   for (int v = rows.begin; v < rows.end; ++v)
-    store_.write(v, view * view_bytes_, view_bytes_,
-                 mapped.data() + std::size_t(v - rows.begin) * view_bytes_);
+    for (const int view : views) {
+      store_.write(v, view * view_bytes_, view_bytes_, in);
+      in += view_bytes_;
+    }
 }
 
 }  // namespace gigaray

@@ -38,14 +38,19 @@ class LevelRows {
   RowsOnDevice open(RowRange rows);
   /// Rows of some views, ascending; at: where they lie among what is stored.
   RowsOnDevice open(RowRange rows, const std::vector<int>& views, std::vector<int>& at);
+  /// One row in 1 << shift of some views, and one byte of it: of rows, and bytes, of a coarser
+  /// level. Not of rows on the device.
+  RowsOnDevice open_coarse(RowRange rows, int shift, const std::vector<int>& views,
+                           std::vector<int>& at);
   /// Rows of one view.
   ViewRows open_view(RowRange rows, int view);
   /// Ends what open() or open_view() began, when the rows were changed.
   void close(RowRange rows, const RowsOnDevice& opened);
-  void close(RowRange rows, int view, const ViewRows& opened);
+  void close(RowRange rows, const std::vector<int>& views, const RowsOnDevice& opened);
+  void close(RowRange rows, int view, const ViewRows& opened) { close(rows, {view}, opened.rows); }
 
  private:
-  RowsOnDevice stage(RowRange rows, int views);
+  RowsOnDevice stage(RowRange rows, std::size_t views, std::size_t view_bytes);
 
   Workspace* workspace_ = nullptr;
   int rows_ = 0, views_ = 0;

@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include "finished_maps.h"
 #include "gigaray/memory_limit.h"
 #include "gigaray/parallel.h"
 #include "gigaray/samplers/any_sampler.h"
@@ -35,8 +36,9 @@ struct LevelCost {
   double stores = 0;    // bytes of everything that is kept of the level
   double band_row = 0;  // bytes of one row of a band, on the device and beside it
   double reached_row =
-      0;                  // bytes of one row of estimates that rays of a band reach, brought for it
-  double row_floats = 0;  // bytes of one row in the band buffer
+      0;  // bytes of one row of estimates that rays of a band reach, brought for it
+  double reached_estimates = 0;  // the estimates among them
+  double row_floats = 0;         // bytes of one row in the band buffer
   double largest_store = 0;
 };
 
@@ -67,6 +69,7 @@ LevelCost cost_of(const LevelShape& shape, const LightField& light_field,
   if (staged) {
     cost.band_row += shape.width * n * (colour_bytes + 3.0);
     cost.reached_row = shape.width * active * kStagedBytes;
+    cost.reached_estimates = shape.width * active * sizeof(PackedEstimate);
   }
   return cost;
 }
@@ -172,14 +175,14 @@ class Planner {
     result.place = place;
     const bool in_files = place == Place::kFile, staged = place != Place::kDevice;
     const double stores = in_files ? 0 : store_bytes();
-    const double on_host = device_.shares_host_memory || staged ? stores : 0;
+    const double on_host = device_.shares_host_memory || staged ? stores : passing_bytes();
     const double fixed = fixed_bytes(volume);
     if (!staged && largest_store() > device_.largest_buffer) return std::nullopt;
     // A device with memory of its own holds bands, scores and maps there; the host the rest.
     double room = limit - fixed - on_host;
     if (!device_.shares_host_memory) {
       if (room < 0) return std::nullopt;
-      room = device_memory() - score_bytes(volume) - view_map_bytes() - (stores - on_host);
+      room = device_memory() - score_bytes(volume) - view_map_bytes() - (staged ? 0 : stores);
     }
     double peak_band = 0;
     for (const LevelShape& shape : shapes_) {
@@ -263,6 +266,17 @@ class Planner {
       stores += cost_of(shape, light_field_, options_, active_, band_views_, false).stores;
     return stores + kTuplesPerPixel * sizeof(RayTuple) * light_field_.width * light_field_.height;
   }
+  /// What the host holds of a run that lies on a device with memory of its own: the pictures as
+  /// they are decoded; at the end finished maps and tuples.
+  double passing_bytes() const {
+    const double pixels = double(light_field_.width) * light_field_.height;
+    const double value_bytes = 3.0 * light_field_.pixels->bit_depth() / 8;
+    const double decoded =
+        pixels * light_field_.num_views() * (value_bytes + light_field_.pixels->has_mask());
+    const double finished =
+        pixels * (active_ * FinishedMaps::kPixelBytes + kTuplesPerPixel * sizeof(RayTuple));
+    return std::max(decoded, finished);
+  }
   /// What the windows reach, a row for gradients, two for interpolation taps.
   int halo(const LevelShape& shape) const {
     const StripNeeds needs = strip_needs(options_.support, shape.level);
@@ -273,8 +287,13 @@ class Planner {
   int fit_band(const LevelShape& shape, const LevelCost& cost, double room, int multiple,
                int lag) const {
     int band = shape.height;
-    while (band_bytes(shape, cost, band, lag) > room ||
-           loaded_rows(shape, band, lag) * cost.row_floats > device_.largest_buffer) {
+    // One buffer each.
+    const auto is_too_large = [&](int rows) {
+      return loaded_rows(shape, rows, lag) * cost.row_floats > device_.largest_buffer ||
+             (cost.reached_estimates > 0 &&
+              reached_rows(shape, rows, 0) * cost.reached_estimates > device_.largest_buffer);
+    };
+    while (band_bytes(shape, cost, band, lag) > room || is_too_large(band)) {
       // Halving keeps the number of bands, and with it the halo rows, small.
       const int fewer = band > 16 ? (band + 1) / 2 : band - 1;
       const int whole = (fewer + multiple - 1) / multiple * multiple;

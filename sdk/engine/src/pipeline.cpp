@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <span>
 
 #include "gigaray/parallel.h"
@@ -197,8 +196,9 @@ void Pipeline::load_sweep(int view, RowRange rows, const std::vector<int>& done)
 
 ShownRows Pipeline::open_shown(RowRange rows, const std::vector<int>& views, std::vector<int>& at) {
   if (shown_.empty()) return {};
-  const RowRange finest{rows.begin << level_, ((rows.end - 1) << level_) + 1};
-  return {shown_.open(finest, views, at), light_field_.width, level_};
+  if (shown_.on_device() || level_ == 0)
+    return {shown_.open(rows, views, at), light_field_.width, level_};
+  return {shown_.open_coarse(rows, level_, views, at), shape().width, 0};
 }
 
 void Pipeline::load_rows(const std::vector<int>& views, RowRange rows, bool masked) {
@@ -273,10 +273,10 @@ void Pipeline::downsample(const std::vector<int>& views, RowRange band) {
   if (small.size() == 0) return;
   workspace_.begin_stage("downsample");
   LevelRows& next = levels_[level_ + 1].pixels;
-  // A group is a run of views.
-  const RowsOnDevice rows = next.open(small);
-  workspace_.downsample(small, rows, views.front());
-  next.close(small, rows);
+  std::vector<int> at;
+  const RowsOnDevice rows = next.open(small, views, at);
+  workspace_.downsample(small, rows, at.front());  // a group is a run of views
+  next.close(small, views, rows);
 }
 
 void Pipeline::coarsen() {

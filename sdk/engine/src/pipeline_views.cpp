@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Gigaray authors
 // What is to do in a view, and what becomes of its winners.
-#include <algorithm>
 #include <limits>
 #include <numeric>
 #include <span>

@@ -3,7 +3,6 @@
 #include "gigaray/reconstruct.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "gigaray/calibration.h"

@@ -6,6 +6,8 @@
 #include <cstring>
 #include <new>
 
+#include "gigaray/error.h"
+
 namespace gigaray {
 
 void AlignedBytes::Free::operator()(std::byte* p) const { std::free(p); }
@@ -48,17 +50,9 @@ void RowStore::write(int row, std::size_t offset, std::size_t bytes, const void*
     std::memcpy(memory_.data() + begin, in, bytes);
 }
 
-std::byte* RowStore::open(RowRange rows, AlignedBytes& scratch) const {
-  if (!file_.is_open())
-    return const_cast<std::byte*>(memory_.data()) + std::size_t(rows.begin) * row_bytes_;
-  const std::size_t bytes = std::size_t(rows.size()) * row_bytes_;
-  scratch.at_least(bytes);
-  read(rows.begin, 0, bytes, scratch.data());
-  return scratch.data();
-}
-
-void RowStore::close(RowRange rows, const std::byte* opened) {
-  if (file_.is_open()) write(rows.begin, 0, std::size_t(rows.size()) * row_bytes_, opened);
+std::span<std::byte> RowStore::bytes() {
+  GIGARAY_CHECK(!file_.is_open());
+  return {memory_.data(), std::size_t(rows_) * row_bytes_};
 }
 
 }  // namespace gigaray

@@ -4,10 +4,9 @@
 
 #include <cstddef>
 #include <memory>
+#include <span>
 #include <string>
-#include <vector>
 
-#include "gigaray/image.h"
 #include "gigaray/scratch_file.h"
 
 namespace gigaray {
@@ -45,10 +44,8 @@ class RowStore {
   void read(int row, std::size_t offset, std::size_t bytes, void* out) const;
   void write(int row, std::size_t offset, std::size_t bytes, const void* in);
 
-  /// Some rows in place when they are in memory, else read into `scratch`.
-  std::byte* open(RowRange rows, AlignedBytes& scratch) const;
-  /// Ends what open() began, when the rows were changed.
-  void close(RowRange rows, const std::byte* opened);
+  /// All rows in place. They are in memory.
+  std::span<std::byte> bytes();
 
  private:
   int rows_ = 0;
