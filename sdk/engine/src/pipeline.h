@@ -153,8 +153,9 @@ class Pipeline {
   RowRange loaded_rows_;
   std::vector<int> loaded_views_;
   bool loaded_masked_ = false;
-  bool sees_means_ = false;  ///< means stand for the pixels of the view that is worked on
-  std::vector<int> progress_of_stages_;  ///< rows that each stage of the sweep has done
+  bool sees_means_ = false;         ///< means stand for the pixels of the view that is worked on
+  std::vector<SweepStage> stages_;  ///< of the view that is worked on
+  std::vector<int> progress_of_stages_;  ///< rows that each of them has done
   RowRange first_scores_;                ///< rows that the scores of the first look are held of
   std::array<std::shared_ptr<Memory>, 4> strips_;
   std::shared_ptr<Memory> tuple_memory_;

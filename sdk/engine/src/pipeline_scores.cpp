@@ -30,16 +30,16 @@ bool sees_means(SweepStep step) {
 void Pipeline::sweep(int active_idx) {
   const int view = active_[active_idx], height = shape().height;
   const LevelPlan& plan = plan_.levels[level_];
-  const auto stages = sweep_stages(options_, level_, int(partners_[view].size()));
-  progress_of_stages_.assign(stages.size(), 0);
+  stages_ = sweep_stages(options_, level_, int(partners_[view].size()));
+  progress_of_stages_.assign(stages_.size(), 0);
   std::vector<int>& done = progress_of_stages_;
   grow_todo();
   workspace_.hold_scores(kFirstScores, {});
   workspace_.hold_scores(kNewScores, {});
   first_scores_ = {};
   while (done.back() < height) {
-    for (std::size_t i = 0; i < stages.size(); ++i) {
-      const SweepStage& stage = stages[i];
+    for (std::size_t i = 0; i < stages_.size(); ++i) {
+      const SweepStage& stage = stages_[i];
       const int ready = i == 0 ? std::min(done[0] + plan.strip_rows, height) : done[i - 1];
       const int end =
           ready == height ? height : (ready - stage.reach) / stage.multiple * stage.multiple;
@@ -175,11 +175,11 @@ void Pipeline::look(int view, SweepStep step, RowRange rows) {
 }
 
 int Pipeline::slanted_scores_begin() const {
-  const auto stages = sweep_stages(options_, level_, 0);
-  constexpr std::size_t kSlanted = 3;
-  if (stages.size() <= kSlanted) return shape().height;
   const int reach = (options_.support.scanline ? kScanlineReach : 0) + options_.support.radius;
-  return std::max(progress_of_stages_[kSlanted] - reach, 0);
+  for (std::size_t i = 0; i < stages_.size(); ++i)
+    if (stages_[i].step == SweepStep::kSlantedLook)
+      return std::max(progress_of_stages_[i] - reach, 0);
+  return shape().height;
 }
 
 void Pipeline::support(int view, RowRange rows, const Map<std::uint8_t>& todo, bool along_slopes) {
