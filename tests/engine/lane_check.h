@@ -191,19 +191,9 @@ class LaneCheck {
 
   /// The reference without its noise, and the gradients that are taken of it.
   void means(ParityBench<S>& bench) {
-    const int channels = bench.reference->channels();
     const RowRange rows = bench.rows(), around = bench.around(1);
-    const auto disparity = bench.random_disparity(around, 0.9);
-    StripMap<float> expected(bench.width(), {channels * around.begin, channels * around.end});
-    StripMap<float> actual = expected;
-    bench.reference->ray_mean(2, around, disparity, expected);
-    bench.opencl->ray_mean(2, around, disparity, actual);
-    Difference difference;
-    for (int v = around.begin; v < around.end; ++v)
-      for (int c = 0; c < 3; ++c)
-        for (int u = 0; u < bench.width(); ++u)
-          difference.add(expected.row(channels * v + c)[u], actual.row(channels * v + c)[u]);
-    expect_within("ray mean", difference, kRadiance);
+    StripMap<float> expected;
+    expect_within("ray mean", compare_ray_means(bench, 2, around, expected), kRadiance);
     const auto all = bench.all_todo(rows);
     const auto full = bench.full_bounds(rows);
     for (HostSteps* steps : both(bench)) {

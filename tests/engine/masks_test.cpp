@@ -3,6 +3,7 @@
 // Masks of 3D and 4D light fields; those of posed cameras are in unstructured_test.cpp.
 #include <gtest/gtest.h>
 
+#include "engine/barred_pictures.h"
 #include "engine/cache_fixture.h"
 #include "support/analytic_field.h"
 #include "support/depth_result.h"
@@ -12,32 +13,13 @@ namespace {
 
 constexpr int kWidth = 121, kHeight = 61;
 
-/// A bar that stands at the same place in every picture, as the strap of a camera would: black, and
-/// the same colour everywhere under the disparity 0.
-bool is_in_bar(int u, int) { return u >= 50 && u < 64; }
-
-class BarredPictures : public PixelSource {
- public:
-  explicit BarredPictures(std::shared_ptr<const PixelSource> pixels) : pixels_(std::move(pixels)) {}
-  int bit_depth() const override { return pixels_->bit_depth(); }
-  bool has_mask() const override { return true; }
-  Image<std::uint16_t> read(int view_idx) const override {
-    const Image<std::uint16_t> whole = pixels_->read(view_idx);
-    Image<std::uint16_t> picture(whole.width(), whole.height(), 4);
-    for (int v = 0; v < whole.height(); ++v)
-      for (int u = 0; u < whole.width(); ++u)
-        for (int c = 0; c < picture.channels(); ++c)
-          picture(u, v, c) = is_in_bar(u, v) ? 0 : c == 3 ? 255 : whole(u, v, c);
-    return picture;
-  }
-
- private:
-  std::shared_ptr<const PixelSource> pixels_;
-};
+constexpr int kBarBegin = 50, kBarEnd = 64;
+bool is_in_bar(int u) { return u >= kBarBegin && u < kBarEnd; }
 
 AnalyticField barred(std::vector<View> views) {
   AnalyticField field = analytic_field(kWidth, kHeight, std::move(views), {{1.3, 5}});
-  field.light_field.pixels = std::make_shared<BarredPictures>(field.light_field.pixels);
+  field.light_field.pixels =
+      std::make_shared<BarredPictures>(field.light_field.pixels, kBarBegin, kBarEnd);
   return field;
 }
 
@@ -61,8 +43,8 @@ TEST_P(Masks, HaveNoDepthAndAddNothingToOthersInRowsAndGrids) {
     long right = 0, shown = 0, apart = 0;
     for (int v = 0; v < kHeight; ++v)
       for (int u = 0; u < kWidth; ++u) {
-        ASSERT_EQ(is_in_bar(u, v), std::isnan(depth.disparity(u, v))) << u << " " << v;
-        if (is_in_bar(u, v)) continue;
+        ASSERT_EQ(is_in_bar(u), std::isnan(depth.disparity(u, v))) << u << " " << v;
+        if (is_in_bar(u)) continue;
         ++shown;
         right += std::abs(depth.disparity(u, v) - 1.3) < 0.1;
         // Beside the bar fewer views count, in both backends alike.

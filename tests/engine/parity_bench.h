@@ -310,6 +310,25 @@ inline Difference compare(const StripMap<Slope>& a, const StripMap<Slope>& b, Ro
     }
   return difference;
 }
+/// Means along the rays of view `ref` for random estimates, by both workspaces; `means` gets those
+/// of the reference.
+template <RaySampler S>
+Difference compare_ray_means(ParityBench<S>& bench, int ref, RowRange rows,
+                             StripMap<float>& means) {
+  const int channels = bench.reference->channels();
+  const auto disparity = bench.random_disparity(rows, 0.9);
+  means = StripMap<float>(bench.width(), {channels * rows.begin, channels * rows.end});
+  StripMap<float> actual = means;
+  bench.reference->ray_mean(ref, rows, disparity, means);
+  bench.opencl->ray_mean(ref, rows, disparity, actual);
+  Difference difference;
+  for (int v = rows.begin; v < rows.end; ++v)
+    for (int c = 0; c < 3; ++c)
+      for (int u = 0; u < bench.width(); ++u)
+        difference.add(means.row(channels * v + c)[u], actual.row(channels * v + c)[u]);
+  return difference;
+}
+
 /// Scores of all pixels to do, those beyond their bounds too. `unstable`: larger differences are
 /// counted.
 template <RaySampler S>

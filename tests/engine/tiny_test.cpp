@@ -4,6 +4,7 @@
 // is interpreted instruction by instruction.
 #include <gtest/gtest.h>
 
+#include "engine/barred_pictures.h"
 #include "engine/lane_check.h"
 #include "gigaray/reconstruct.h"
 #include "support/depth_result.h"
@@ -50,34 +51,13 @@ TYPED_TEST(Tiny, FourLanes) {
   check.automatic();
 }
 
-/// A bar that stands at the same place in every picture hides the scene.
-class HiddenByABar : public PixelSource {
- public:
-  explicit HiddenByABar(std::shared_ptr<const PixelSource> pixels) : pixels_(std::move(pixels)) {}
-  int bit_depth() const override { return pixels_->bit_depth(); }
-  bool has_mask() const override { return true; }
-  Image<std::uint16_t> read(int view_idx) const override {
-    const Image<std::uint16_t> whole = pixels_->read(view_idx);
-    Image<std::uint16_t> picture(whole.width(), whole.height(), 4);
-    for (int v = 0; v < whole.height(); ++v)
-      for (int u = 0; u < whole.width(); ++u) {
-        for (int c = 0; c < 3; ++c) picture(u, v, c) = whole(u, v, c);
-        picture(u, v, 3) = u >= 9 && u < 12 ? 0 : 255;
-      }
-    return picture;
-  }
-
- private:
-  std::shared_ptr<const PixelSource> pixels_;
-};
-
 class TinyRuns : public testing::TestWithParam<std::tuple<const char*, bool>> {};
 
 TEST_P(TinyRuns, AllViewsOfMaskedPictures) {
   const auto [preset, is_grid] = GetParam();
   AnalyticField field =
       analytic_field(25, 21, is_grid ? grid_of_views(2, 2) : row_of_views(3), {{0.6, 5}});
-  field.light_field.pixels = std::make_shared<HiddenByABar>(field.light_field.pixels);
+  field.light_field.pixels = std::make_shared<BarredPictures>(field.light_field.pixels, 9, 12);
   DepthOptions options = preset_options(preset);
   options.disparity = {-0.5, 1.5};
   options.hypotheses = 9;

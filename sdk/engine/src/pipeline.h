@@ -81,6 +81,9 @@ class Pipeline {
   void grow_todo();
   void score(int view, RowRange rows, ScoreViews views, const Map<std::uint8_t>& todo,
              const Map<HypothesisBounds>& bounds);
+  /// Of all rows, whatever is held.
+  void score_anew(int view, RowRange rows, ScoreViews views, const Map<std::uint8_t>& todo,
+                  const Map<HypothesisBounds>& bounds);
   void look(int view, SweepStep step, RowRange rows);
   /// First row of the scores of the first look that the slanted one has not done with.
   int slanted_scores_begin() const;

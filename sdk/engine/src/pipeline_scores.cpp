@@ -136,6 +136,15 @@ void Pipeline::score(int view, RowRange rows, ScoreViews views, const Map<std::u
   }
 }
 
+void Pipeline::score_anew(int view, RowRange rows, ScoreViews views, const Map<std::uint8_t>& todo,
+                          const Map<HypothesisBounds>& bounds) {
+  // In one strip nothing asks for the scores of the first look any more.
+  const int volume = plan_.levels[level_].strip_rows >= shape().height ? kFirstScores : kNewScores;
+  workspace_.hold_scores(volume, {});
+  workspace_.hold_scores(volume, rows);
+  score(view, rows, views, todo, bounds);
+}
+
 void Pipeline::look(int view, SweepStep step, RowRange rows) {
   const int height = shape().height, radius = options_.support.radius;
   const bool scanline = level_ == 0 && options_.support.scanline;
@@ -158,10 +167,7 @@ void Pipeline::look(int view, SweepStep step, RowRange rows) {
   } else if (step == SweepStep::kSlantedLook && keeps) {
     workspace_.hold_scores(kFirstScores, first_scores_);
   } else {
-    const int volume = plan_.levels[level_].strip_rows >= height ? kFirstScores : kNewScores;
-    workspace_.hold_scores(volume, {});
-    workspace_.hold_scores(volume, scored);
-    score(view, scored, views, score_todo, score_bounds);
+    score_anew(view, scored, views, score_todo, score_bounds);
   }
   support(view, supported, of_view_.todo, step != SweepStep::kLook);
   if (scanline) {
@@ -197,10 +203,7 @@ void Pipeline::look_behind(int view, RowRange rows) {
   workspace_.begin_stage("select");
   workspace_.grow_todo(scored, options_.support.radius, maps.beside, maps.bounds, maps.behind_todo,
                        maps.behind_bounds);
-  const int volume = plan_.levels[level_].strip_rows >= shape().height ? kFirstScores : kNewScores;
-  workspace_.hold_scores(volume, {});
-  workspace_.hold_scores(volume, scored);
-  score(view, scored, ScoreViews::kHalfPlanes, maps.behind_todo, maps.behind_bounds);
+  score_anew(view, scored, ScoreViews::kHalfPlanes, maps.behind_todo, maps.behind_bounds);
   support(view, rows, maps.beside, true);
   workspace_.begin_stage("winner");
   const auto winners = strip<float>(0, rows), contrast = strip<float>(1, rows);

@@ -41,7 +41,7 @@ class MapView {
 };
 
 /// Values of some rows of one view in the host's memory, in the layout of the kernels: `pitch`
-/// values per row, pixel u at kPad + u, zero elsewhere (kernels read beyond the edges but don't use
+/// values per row, pixel u at kMapPad + u, zero elsewhere (kernels read beyond the edges but don't use
 /// what is there).
 template <class T>
 class StripMap {
