@@ -41,8 +41,8 @@ class MapView {
 };
 
 /// Values of some rows of one view in the host's memory, in the layout of the kernels: `pitch`
-/// values per row, pixel u at kMapPad + u, zero elsewhere (kernels read beyond the edges but don't use
-/// what is there).
+/// values per row, pixel u at kMapPad + u, zero elsewhere (kernels read beyond the edges but don't
+/// use what is there).
 template <class T>
 class StripMap {
  public:
