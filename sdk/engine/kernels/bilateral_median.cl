@@ -4,10 +4,10 @@
 // Of an even number the lower of the two middle values: no depth that was never tested.
 //   in   [v][pitch]; NaN: no estimate, does not count
 //   out  [v][pitch]; NaN where `in` has none
-// One work-item per (block of LANES pixels, row); window: (2 RADIUS + 1)^2 vectors of local memory.
+// One work-item per (block of LANES pixels, row); window: (2 MEDIAN_RADIUS + 1)^2 vectors of local memory.
 
-#ifndef RADIUS
-#define RADIUS 5  // 5 is the paper's 11 x 11
+#ifndef MEDIAN_RADIUS
+#define MEDIAN_RADIUS 5  // 5 is the paper's 11 x 11
 #endif
 #ifndef BILATERAL
 #define BILATERAL 1  // 0: a plain median, colours are not looked at
@@ -35,12 +35,12 @@ __kernel void bilateral_median(__global const float* band, const BandParams p,
 
   // Collect the window: values as ordered integers, 0xffffffff for what does not count.
   const vint x = u + VLANES;
-  const int top = max(v - RADIUS, 0), bottom = min(v + RADIUS, p.height - 1);
+  const int top = max(v - MEDIAN_RADIUS, 0), bottom = min(v + MEDIAN_RADIUS, p.height - 1);
   int size = 0;
   vint count = (vint)(0);
   for (int y = top; y <= bottom; ++y) {
     __global const float* values = in + view_index(strip, y - strip.row_begin, u);
-    for (int k = -RADIUS; k <= RADIUS; ++k) {
+    for (int k = -MEDIAN_RADIUS; k <= MEDIAN_RADIUS; ++k) {
       const vfloat value = VLOAD(values + k);
       vint counts = x + k >= 0 && x + k < p.width && value == value;
 #if BILATERAL

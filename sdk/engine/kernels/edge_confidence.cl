@@ -5,8 +5,8 @@
 //   confidence [row][pitch]
 // One work-item per (block of LANES pixels, row). Neighbours outside the picture are left out.
 
-#ifndef RADIUS
-#define RADIUS 4  // half the window: 4 is the paper's 9 pixels
+#ifndef EDGE_RADIUS
+#define EDGE_RADIUS 4  // half the window: 4 is the paper's 9 pixels
 #endif
 #ifndef SQUARED
 #define SQUARED 1  // 1: squared distances, 0: plain ones
@@ -31,13 +31,13 @@ __kernel void edge_confidence(__global const float* band, const BandParams p, co
   // The padding repeats the edge pixel, which differs from the neighbours by something: left out.
   const vint x = u + VLANES;
   vfloat along_u = (vfloat)(0.0f);
-  for (int k = -RADIUS; k <= RADIUS; ++k) {
+  for (int k = -EDGE_RADIUS; k <= EDGE_RADIUS; ++k) {
     const vfloat d = colour_difference(here, here + k, p.stride);
     along_u += VSELECT((vfloat)(0.0f), d, x + k >= 0 && x + k < p.width);
   }
   vfloat along_v = (vfloat)(0.0f);
 #if BOTH_AXES
-  const int first = max(v - RADIUS, 0), last = min(v + RADIUS, p.height - 1);
+  const int first = max(v - EDGE_RADIUS, 0), last = min(v + EDGE_RADIUS, p.height - 1);
   for (int y = first; y <= last; ++y)
     along_v += colour_difference(here, band_row(band, p, strip.ref, y) + u, p.stride);
 #endif

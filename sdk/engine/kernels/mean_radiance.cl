@@ -19,7 +19,7 @@
 #endif
 
 // A colour that no kernel reaches stands for "not inside the picture".
-#define FAR_AWAY 1e4f
+#define NOT_SEEN 1e4f
 
 // Linear interpolation of RGB.
 static inline void sample_colour(__global const float* band, const BandParams p, int k, int x, int y,
@@ -40,7 +40,7 @@ static inline void sample_pixels(__global const float* band, const BandParams p,
                                  vfloat* colour) {
   float values[3][LANES];
   for (int lane = 0; lane < LANES; ++lane) {
-    for (int c = 0; c < 3; ++c) values[c][lane] = FAR_AWAY;
+    for (int c = 0; c < 3; ++c) values[c][lane] = NOT_SEEN;
     float x, y, h_other, fx, fy;
     if (isnan(h[lane]) || !locate(rays, k, u + lane, v, h[lane], &x, &y, &h_other)) continue;
     const int xi = split_snapped(x, &fx), yi = split_snapped(y, &fy);

@@ -128,9 +128,9 @@ INLINE vfloat columns_at(const BlockView* view, int x, int between_rows) {
 
 // The channels from `channel` on at units from `unit` on, without the last of the vectors that a unit's
 // taps lie in.
-#define WINDOW (TAP_VECTORS + 1)
+#define TAP_WINDOW (TAP_VECTORS + 1)
 INLINE void begin_window(const BlockView* view, int stride, int channel, int channels, int unit,
-                         int between_rows, vfloat window[][WINDOW]) {
+                         int between_rows, vfloat window[][TAP_WINDOW]) {
   UNROLL
   for (int c = 0; c < channels; ++c)
     UNROLL
@@ -141,7 +141,7 @@ INLINE void begin_window(const BlockView* view, int stride, int channel, int cha
 // Squared distance of a unit's samples to `own`; the window goes on to the next unit.
 INLINE vfloat distance2(const BlockView* view, __global const float* own, int stride, int channel,
                         int channels, int unit, int between_rows, int between_columns,
-                        vfloat window[][WINDOW]) {
+                        vfloat window[][TAP_WINDOW]) {
   const float4 w = view->weights_u;
   vfloat squared = (vfloat)(0.0f);
   UNROLL
@@ -183,7 +183,7 @@ INLINE void add_run(const BlockView* view, const Run run, __global const float* 
                     BlockSums* block) {
   const int first = max(run.first, view->first_unit), last = min(run.last, view->last_unit);
   if (first > last) return;
-  vfloat window[3][WINDOW], colour[UNITS];
+  vfloat window[3][TAP_WINDOW], colour[UNITS];
   begin_window(view, stride, 0, 3, first, between_rows, window);
   vfloat largest = (vfloat)(0.0f);
   for (int j = first; j <= last; ++j) {

@@ -5,21 +5,21 @@
 // slope, a neighbour counts with its score at the hypothesis that the surface through the pixel has
 // there, linearly interpolated:
 //   A(p, d) = sum_q w(p, q) S(q, d + slope · (q - p)) / sum_q w(p, q)
-//   scores     [row - scores_begin][u][hypothesis]: the strip and RADIUS rows on both sides, clipped to
+//   scores     [row - scores_begin][u][hypothesis]: the strip and SUPPORT_RADIUS rows on both sides, clipped to
 //              the picture
 //   slopes     [v][pitch] (along u, along v), hypothesis units per px
 //   supported  [row][u][hypothesis]
 //   todo, bounds as for density_score
 // One work-item per pixel; lanes are hypotheses, VECTORS of them at a time.
 
-#ifndef RADIUS
-#define RADIUS 4
+#ifndef SUPPORT_RADIUS
+#define SUPPORT_RADIUS 4
 #endif
 #ifndef VECTORS
 #define VECTORS 1  // sums at a time, in registers: a single one would wait for each of its additions
 #endif
 #define INLINE static inline __attribute__((always_inline))
-#define WINDOW (2 * RADIUS + 1)
+#define WINDOW (2 * SUPPORT_RADIUS + 1)
 #define WINDOW_PITCH ((WINDOW + LANES - 1) / LANES * LANES)
 
 // Weights of the neighbours, [row][WINDOW_PITCH]; 0 outside the picture. Returns their sum.
@@ -32,17 +32,17 @@ static inline float support_weights(__global const float* band, const BandParams
   vfloat sum = (vfloat)(0.0f);
   for (int y = top; y <= bottom; ++y)
     for (int k = 0; k < WINDOW; k += LANES) {
-      const vint du = k - RADIUS + VLANES;
-      __global const float* there = band_row(band, p, strip.ref, y) + u - RADIUS + k;
+      const vint du = k - SUPPORT_RADIUS + VLANES;
+      __global const float* there = band_row(band, p, strip.ref, y) + u - SUPPORT_RADIUS + k;
       vfloat d2 = (vfloat)(0.0f);
       UNROLL
       for (int c = 0; c < 3; ++c) {
         const vfloat d = VLOAD(there + c * p.stride) - here[c * p.stride];
         d2 += d * d;
       }
-      const vfloat du_f = (vfloat)(k - RADIUS) + LANE_NUMBERS;
+      const vfloat du_f = (vfloat)(k - SUPPORT_RADIUS) + LANE_NUMBERS;
       vfloat w = exp(-d2 * per_colour - (du_f * du_f + (float)((y - v) * (y - v))) * per_space);
-      w = VSELECT((vfloat)(0.0f), w, du <= RADIUS && u + du >= 0 && u + du < p.width);
+      w = VSELECT((vfloat)(0.0f), w, du <= SUPPORT_RADIUS && u + du >= 0 && u + du < p.width);
       VSTORE(w, weights + (y - top) * WINDOW_PITCH + k);
       sum += w;
     }
@@ -57,7 +57,7 @@ typedef struct {
 } Window;
 
 INLINE const float* row_weights(const Window* window, int y) {
-  return window->weights + (y - window->top) * WINDOW_PITCH + window->left - window->u + RADIUS;
+  return window->weights + (y - window->top) * WINDOW_PITCH + window->left - window->u + SUPPORT_RADIUS;
 }
 
 // Supported scores of neighbouring vectors. scores: the first of them at the window's first pixel.
@@ -87,8 +87,8 @@ __kernel void score_support(__global const float* band, const BandParams p, cons
   const int u = get_global_id(0), row = get_global_id(1), v = strip.row_begin + row;
   if (u >= strip.width || !todo[view_index(strip, row, u)]) return;
   const ushort2 tested = bounds[view_index(strip, row, u)];
-  const int top = max(v - RADIUS, 0), bottom = min(v + RADIUS, p.height - 1);
-  const int left = max(u - RADIUS, 0), right = min(u + RADIUS, p.width - 1);
+  const int top = max(v - SUPPORT_RADIUS, 0), bottom = min(v + SUPPORT_RADIUS, p.height - 1);
+  const int left = max(u - SUPPORT_RADIUS, 0), right = min(u + SUPPORT_RADIUS, p.width - 1);
   float weights[WINDOW * WINDOW_PITCH];
   const float scale = 1.0f / support_weights(band, p, strip, u, v, top, bottom, sigma_colour,
                                              sigma_space, weights);
@@ -171,8 +171,8 @@ __kernel void slanted_support(__global const float* band, const BandParams p,
   const int u = get_global_id(0), row = get_global_id(1), v = strip.row_begin + row;
   if (u >= strip.width || !todo[view_index(strip, row, u)]) return;
   const ushort2 tested = bounds[view_index(strip, row, u)];
-  const int top = max(v - RADIUS, 0), bottom = min(v + RADIUS, p.height - 1);
-  const int left = max(u - RADIUS, 0), right = min(u + RADIUS, p.width - 1);
+  const int top = max(v - SUPPORT_RADIUS, 0), bottom = min(v + SUPPORT_RADIUS, p.height - 1);
+  const int left = max(u - SUPPORT_RADIUS, 0), right = min(u + SUPPORT_RADIUS, p.width - 1);
   float weights[WINDOW * WINDOW_PITCH];
   const float scale = 1.0f / support_weights(band, p, strip, u, v, top, bottom, sigma_colour,
                                              sigma_space, weights);

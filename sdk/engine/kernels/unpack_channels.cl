@@ -2,39 +2,30 @@
 // Copyright (c) 2026 The Gigaray authors
 // Turns decoded rows into the planes of a band: colours through a look-up table, gradients of the
 // channel mean, padding.
-//   encoded  [v - encoded_begin][stored view][u][3], SOURCE integers (level 0), through lut; or
-//            [v - encoded_begin][stored view][3][u] floats in the working colour space (level 1 on)
+//   encoded  [v - encoded_begin][stored view][u][3], integers of `bits` 8 or 16 (level 0), through lut;
+//            bits 32: [v - encoded_begin][stored view][3][u] floats in the working colour space (level
+//            1 on)
 //   at       [view] which of the stored views it is
 //   band     [row][view][CHANNELS][stride]
 // Work-group shape: none; one work-item per (view, row).
 
-#ifndef SOURCE_BITS
-#define SOURCE_BITS 8  // 8, 16: integers; 32: floats of a coarser level
-#endif
-#if SOURCE_BITS == 8
-typedef uchar source_t;
-#elif SOURCE_BITS == 16
-typedef ushort source_t;
-#else
-typedef float source_t;
-#endif
-
-__kernel void unpack_colours(__global const source_t* encoded, const int encoded_begin,
-                             const int stored_views, __global const int* at,
-                             __global const float* lut, const BandParams p, __global float* band) {
+__kernel void unpack_colours(__global const uchar* encoded, const int bits,
+                             const int encoded_begin, const int stored_views,
+                             __global const int* at, __global const float* lut, const BandParams p,
+                             __global float* band) {
   const int view = get_global_id(0), row = get_global_id(1);
   const size_t line = (size_t)(p.row_begin + row - encoded_begin) * stored_views + at[view];
-  __global const source_t* in = encoded + line * 3 * p.width;
+  __global const uchar* in = encoded + line * 3 * p.width * (bits / 8);
   __global float* out = band + ((size_t)row * p.num_views + view) * CHANNELS * p.stride;
   for (int c = 0; c < 3; ++c) {
     __global float* plane = out + c * p.stride + GIGARAY_PAD;
-    for (int u = 0; u < p.width; ++u) {
-#if SOURCE_BITS == 32
-      plane[u] = in[c * p.width + u];
-#else
-      plane[u] = lut[in[3 * u + c]];
-#endif
-    }
+    if (bits == 8)
+      for (int u = 0; u < p.width; ++u) plane[u] = lut[in[3 * u + c]];
+    else if (bits == 16)
+      for (int u = 0; u < p.width; ++u) plane[u] = lut[((__global const ushort*)in)[3 * u + c]];
+    else
+      for (int u = 0; u < p.width; ++u)
+        plane[u] = ((__global const float*)in)[c * p.width + u];
     for (int i = 1; i <= GIGARAY_PAD; ++i) plane[-i] = plane[0];
     for (int u = p.width; u < p.stride - GIGARAY_PAD; ++u) plane[u] = plane[p.width - 1];
   }

@@ -21,7 +21,7 @@ void DeviceWorkspace::close_cracks(RowRange rows, int width, float apart,
 }
 
 Kernel& DeviceWorkspace::arrival_kernel(const std::string& entry) {
-  return plain_kernel("propagation", entry, define("ATOMIC", device_.info().has_int64_atomics));
+  return plain_kernel("propagation", entry, arrival_defines());
 }
 
 void DeviceWorkspace::run_arrivals(Kernel& kernel, RowRange rows) {

@@ -26,10 +26,7 @@ void DeviceWorkspace::run_with_reals(const std::string& entry, RowRange rows, co
 }
 
 void DeviceWorkspace::edge_confidence(int ref, RowRange rows, const Map<float>& confidence) {
-  const EdgeOptions& edge = setup_.options.edge;
-  LaneKernel& kernel = lane_kernel("edge_confidence",
-                                   define("RADIUS", edge.radius) + define("SQUARED", edge.squared) +
-                                       define("BOTH_AXES", setup_.kind != LightFieldKind::k3D));
+  LaneKernel& kernel = lane_kernel("edge_confidence", edge_defines());
   kernel.kernel.set_args(band_memory_.buffer, band_, strip(ref, rows), buffer_of(confidence));
   kernel.run(band_.width, rows.size());
 }
@@ -141,8 +138,8 @@ void DeviceWorkspace::bilateral_median(int ref, RowRange rows, int radius, float
                                        const Map<float>& in, const Map<float>& out) {
   const bool bilateral = std::isfinite(tolerance);
   const std::size_t window = std::size_t(2 * radius + 1) * (2 * radius + 1);
-  LaneKernel& kernel = lane_kernel(
-      "bilateral_median", define("RADIUS", radius) + define("BILATERAL", bilateral), "", window);
+  LaneKernel& kernel =
+      lane_kernel("bilateral_median", median_defines(radius, bilateral), "", window);
   // A plain median looks at no colour, but a kernel argument must be some buffer.
   const OwnPixels own = bilateral ? reference_pixels(ref) : OwnPixels{table_buffer_, band_, 0};
   kernel.kernel.set_args(own.buffer, own.band, own_strip(own.view, rows), buffer_of(in),

@@ -45,8 +45,7 @@ std::size_t DeviceWorkspace::score_offset(int row) const {
 void DeviceWorkspace::density_score(int ref, RowRange rows, const Map<std::uint8_t>& todo,
                                     const Map<HypothesisBounds>& bounds) {
   const ScoreOptions& score = setup_.options.score;
-  const std::string options = score_defines() + (score.stop_early ? "" : " -DMOVE_BOUND=0.0f");
-  LaneKernel& kernel = lane_kernel("density_score", options);
+  LaneKernel& kernel = lane_kernel("density_score", density_defines());
   Buffer& scores = raw_->scores.buffer;
   winner_reads(raw_->scores, raw_->rows);
   const float floor_views = score.floor_views * float(band_.num_views);
@@ -66,7 +65,7 @@ void DeviceWorkspace::density_score(int ref, RowRange rows, const Map<std::uint8
   kernel.run(band_.width, rows.size());
   if (!packs) return;
   // As many as can stand alone; blocks beyond the end do nothing.
-  LaneKernel& sparse = lane_kernel("density_score", options, "density_score_packed");
+  LaneKernel& sparse = lane_kernel("density_score", density_defines(), "density_score_packed");
   const std::size_t blocks_of_row = round_up(band_.width, kernel.lanes) / kernel.lanes;
   const std::size_t most = blocks_of_row * (kernel.lanes / 2) * rows.size();
   Buffer& packed = packed_.at_least(device_, most * 2 * sizeof(int));
@@ -81,9 +80,7 @@ void DeviceWorkspace::robust_score(int ref, RowRange rows, const Map<std::uint8_
                                    const Map<HypothesisBounds>& bounds, ScoreViews views) {
   const ScoreOptions score = means_ ? against_means(setup_.options.score) : setup_.options.score;
   const bool halves = views == ScoreViews::kHalfPlanes;
-  LaneKernel& kernel =
-      lane_kernel("robust_score",
-                  define("CUBIC", score.cubic) + define("HALF_PLANES", halves) + masked_define());
+  LaneKernel& kernel = lane_kernel("robust_score", robust_defines(halves));
   const ViewSet& members = view_set(ref, views);
   Buffer& scores = raw_->scores.buffer;
   winner_reads(raw_->scores, raw_->rows);
@@ -100,7 +97,7 @@ void DeviceWorkspace::score_support(int ref, RowRange rows, const Map<std::uint8
                                     const Map<HypothesisBounds>& bounds) {
   const OwnPixels own = reference_pixels(ref);
   const SupportOptions& support = setup_.options.support;
-  LaneKernel& kernel = lane_kernel("score_support", define("RADIUS", support.radius));
+  LaneKernel& kernel = lane_kernel("score_support", support_defines());
   Buffer& supported = supported_scores_.at_least(device_, volume_bytes(rows));
   kernel.kernel.set_args(own.buffer, own.band, own_strip(own.view, rows), hypotheses_,
                          buffer_of(todo), buffer_of(bounds), raw_->scores.buffer, raw_->rows.begin,
@@ -114,8 +111,7 @@ void DeviceWorkspace::slanted_support(int ref, RowRange rows, const Map<std::uin
                                       const Map<Slope>& slopes) {
   const OwnPixels own = reference_pixels(ref);
   const SupportOptions& support = setup_.options.support;
-  LaneKernel& kernel =
-      lane_kernel("score_support", define("RADIUS", support.radius), "slanted_support");
+  LaneKernel& kernel = lane_kernel("score_support", support_defines(), "slanted_support");
   Buffer& supported = supported_scores_.at_least(device_, volume_bytes(rows));
   kernel.kernel.set_args(own.buffer, own.band, own_strip(own.view, rows), hypotheses_,
                          buffer_of(todo), buffer_of(bounds), buffer_of(slopes), raw_->scores.buffer,
@@ -162,7 +158,7 @@ void DeviceWorkspace::winner(RowRange rows, const Map<std::uint8_t>& todo,
                              const Map<HypothesisBounds>& bounds, const Map<float>& disparity,
                              const Map<float>& contrast) {
   GIGARAY_CHECK(rows.begin >= score_rows_.begin && rows.end <= score_rows_.end);
-  LaneKernel& kernel = lane_kernel("winner", define("REFINE", setup_.options.winner.refine));
+  LaneKernel& kernel = lane_kernel("winner", winner_defines());
   const int search = chosen_by_ == winner_scores_ ? 0 : kScanlineSearch;
   kernel.kernel.set_args(strip(rows), hypotheses_, buffer_of(todo), buffer_of(bounds),
                          chosen_by_->buffer, winner_scores_->buffer, score_rows_.begin, search,
@@ -173,9 +169,7 @@ void DeviceWorkspace::winner(RowRange rows, const Map<std::uint8_t>& todo,
 void DeviceWorkspace::score_of_estimate(RowRange rows, const Map<std::uint8_t>& todo,
                                         const Map<float>& disparity, const Map<float>& scores) {
   GIGARAY_CHECK(rows.begin >= score_rows_.begin && rows.end <= score_rows_.end);
-  // The options of winner(), so that both are one program.
-  LaneKernel& kernel =
-      lane_kernel("winner", define("REFINE", setup_.options.winner.refine), "score_of_estimate");
+  LaneKernel& kernel = lane_kernel("winner", winner_defines(), "score_of_estimate");
   kernel.kernel.set_args(strip(rows), hypotheses_, buffer_of(todo), winner_scores_->buffer,
                          score_rows_.begin, buffer_of(disparity), disparity.rows().begin,
                          buffer_of(scores));

@@ -36,6 +36,7 @@ DeviceWorkspace::DeviceWorkspace(SamplerTwin sampler, const WorkspaceSetup& setu
   hypotheses_ = {float(setup.hypotheses.min), float(setup.hypotheses.step()),
                  setup.hypotheses.count, int(round_up(setup.hypotheses.count, kWidestLanes))};
   table_buffer_ = Buffer(device_, std::span<const float>(table_));
+  kernels_.join(usual_files());
 }
 
 std::string DeviceWorkspace::description() const {
@@ -139,27 +140,26 @@ void DeviceWorkspace::load_band(RowRange rows, const std::vector<int>& views,
                                                               : 32;
   const std::size_t lines = std::size_t(rows.size()) * band_.num_views;
   Buffer& band = band_memory_.at_least(device_, lines * channels() * band_.stride * sizeof(float));
-  const std::string options = define("SOURCE_BITS", bits);
   const WorkSize all(band_.num_views, rows.size());
-  plain_kernel("unpack_channels", "unpack_colours", options)
-      .set_args(buffer_of(source.pixels), source.pixels.begin, source.pixels.stored_views,
+  plain_kernel("unpack_channels", "unpack_colours")
+      .set_args(buffer_of(source.pixels), bits, source.pixels.begin, source.pixels.stored_views,
                 at_buffer_, table_buffer_, band_, band)
       .run(all, WorkSize(1, 1));
   if (setup_.options.score.gradient)
-    plain_kernel("unpack_channels", "unpack_gradients", options)
+    plain_kernel("unpack_channels", "unpack_gradients")
         .set_args(band_, 0, band)
         .run(all, WorkSize(1, 1));
   const ShownRows& shown = source.shown;
   is_masked_ = bool(shown.rows);
   if (is_masked_)
-    plain_kernel("unpack_channels", "mask_pixels", options)
+    plain_kernel("unpack_channels", "mask_pixels")
         .set_args(buffer_of(shown.rows), shown.rows.begin, shown.width, shown.shift,
                   shown.rows.stored_views, at_buffer_, kMaskedColour, band_, band)
         .run(all, WorkSize(1, 1));
   if (!all_views_.rays_shift_alike) {
     const std::size_t tap_bytes = (channels() > 3 ? 8 : 4) * sizeof(float);
     Buffer& taps = taps_.at_least(device_, lines * (band_.width + 1) * tap_bytes);
-    plain_kernel("unpack_channels", "interleave_taps", options)
+    plain_kernel("unpack_channels", "interleave_taps")
         .set_args(band, band_, taps)
         .run(all, WorkSize(1, 1));
   }
@@ -184,7 +184,7 @@ void DeviceWorkspace::ray_mean(int ref, RowRange rows, const Map<std::uint8_t>& 
 void DeviceWorkspace::mean_gradients(RowRange rows, const Map<float>& means) {
   if (!setup_.options.score.gradient) return;
   const OwnPixels own = pixels_of(means);
-  plain_kernel("unpack_channels", "unpack_gradients", define("SOURCE_BITS", 32))
+  plain_kernel("unpack_channels", "unpack_gradients")
       .set_args(own.band, rows.begin, own.buffer)
       .run(WorkSize(1, rows.size()), WorkSize(1, 1));
 }
@@ -276,10 +276,65 @@ int DeviceWorkspace::least_views(int used) const {
   return std::max(1, int(std::ceil(setup_.options.score.min_views * float(used))));
 }
 
+// ---- What kernels are built with ----------------------------------------------------------------
+
 std::string DeviceWorkspace::score_defines() const {
   const ScoreOptions& score = setup_.options.score;
   return define("ITERATIONS", score.mean_shift_iterations) + define("GRADIENT", score.gradient) +
-         define("CUBIC", score.cubic) + masked_define();
+         define("CUBIC", score.cubic);
+}
+
+std::string DeviceWorkspace::density_defines() const {
+  return score_defines() + masked_define() +
+         (setup_.options.score.stop_early ? "" : " -DMOVE_BOUND=0.0f");
+}
+
+std::string DeviceWorkspace::robust_defines(bool half_planes) const {
+  return define("CUBIC", setup_.options.score.cubic) + define("HALF_PLANES", half_planes) +
+         masked_define();
+}
+
+std::string DeviceWorkspace::edge_defines() const {
+  const EdgeOptions& edge = setup_.options.edge;
+  return define("EDGE_RADIUS", edge.radius) + define("SQUARED", edge.squared) +
+         define("BOTH_AXES", setup_.kind != LightFieldKind::k3D);
+}
+
+std::string DeviceWorkspace::support_defines() const {
+  return define("SUPPORT_RADIUS", setup_.options.support.radius);
+}
+
+std::string DeviceWorkspace::winner_defines() const {
+  return define("REFINE", setup_.options.winner.refine);
+}
+
+std::string DeviceWorkspace::median_defines(int radius, bool bilateral) {
+  return define("MEDIAN_RADIUS", radius) + define("BILATERAL", bilateral);
+}
+
+std::string DeviceWorkspace::arrival_defines() const {
+  return define("ATOMIC", device_.info().has_int64_atomics);
+}
+
+std::vector<KernelFile> DeviceWorkspace::usual_files() const {
+  const DepthOptions& options = setup_.options;
+  std::vector<KernelFile> files{
+      {"unpack_channels", ""},
+      {"downsample", ""},
+      {"winner", winner_defines()},
+      {"bilateral_median", median_defines(options.winner.median_radius, true)},
+      {"mean_radiance", score_defines()},
+      {"propagation", arrival_defines()}};
+  if (options.score.gradient)
+    files.push_back({"robust_score", robust_defines(false)});
+  else
+    files.push_back({"density_score", density_defines()});
+  if (all_views_.rays_shift_alike) files.push_back({"block_shifts", ""});
+  if (options.support.radius > 0) files.push_back({"score_support", support_defines()});
+  if (options.support.slanted) files.push_back({"slope_fit", ""});
+  if (options.support.scanline) files.push_back({"scanline", ""});
+  if (options.winner.weigh_by_edge) files.push_back({"edge_confidence", edge_defines()});
+  return files;
 }
 
 }  // namespace gigaray::opencl

@@ -170,7 +170,17 @@ class DeviceWorkspace : public Workspace {
   std::string masked_define() const {
     return is_masked_ && all_views_.rays_shift_alike ? define("MASKED", 1) : "";
   }
+  /// What the files of kernels are built with.
   std::string score_defines() const;
+  std::string density_defines() const;
+  std::string robust_defines(bool half_planes) const;
+  std::string edge_defines() const;
+  std::string support_defines() const;
+  std::string winner_defines() const;
+  static std::string median_defines(int radius, bool bilateral);
+  std::string arrival_defines() const;
+  /// Those of a run with the workspace's options.
+  std::vector<KernelFile> usual_files() const;
   /// From now on the band holds these views.
   void see_views(const std::vector<int>& views);
   template <class T>

@@ -2,31 +2,65 @@
 // Copyright (c) 2026 The Gigaray authors
 #include "opencl/kernel_set.h"
 
+#include <algorithm>
+
 #include "opencl/program_cache.h"
 
 namespace gigaray::opencl {
+namespace {
+
+/// Does `all` give every parameter of `some` that it has the same value?
+bool agree(const Tuning& some, const Tuning& all) {
+  return std::all_of(some.begin(), some.end(), [&](const auto& parameter) {
+    const auto it = all.find(parameter.first);
+    return it == all.end() || it->second == parameter.second;
+  });
+}
+
+}  // namespace
+
+void KernelSet::join(const std::vector<KernelFile>& files) {
+  for (const KernelFile& file : files) {
+    Tuning tuning = tuning_of(file.name);
+    if (!agree(tuning, joined_tuning_)) continue;
+    joined_tuning_.merge(tuning);
+    joined_.push_back(file);
+  }
+}
 
 Kernel KernelSet::build(const std::string& file, const std::string& entry,
-                        const std::string& options) {
+                        const std::string& options, const Tuning& tuning) {
+  std::vector<std::string> names{"kernel_params.h", "common.cl"};
+  std::string all_options = defines(tuning) + options;
   if (file == kMapSteps) {
-    const SourcePart parts[] = {{"kernel_params.h", kernel_source("kernel_params.h")},
-                                {"common.cl", kernel_source("common.cl")},
-                                {"masks.cl", kernel_source("masks.cl")},
-                                {"estimates.cl", kernel_source("estimates.cl")}};
-    return Kernel(device_, build_program(device_, parts, options), entry);
+    names.insert(names.end(), {"masks.cl", "estimates.cl"});
+  } else {
+    names.push_back(sampler_file_);
+    const bool is_joined =
+        agree(tuning, joined_tuning_) &&
+        std::any_of(joined_.begin(), joined_.end(), [&](const KernelFile& joined) {
+          return joined.name == file && joined.options == options;
+        });
+    if (is_joined) {
+      all_options = defines(joined_tuning_);
+      for (const KernelFile& joined : joined_) {
+        names.push_back(joined.name + ".cl");
+        all_options += joined.options;
+      }
+    } else {
+      names.push_back(file + ".cl");
+    }
+    all_options += common_;
   }
-  const std::string kernel_file = file + ".cl";
-  const SourcePart parts[] = {{"kernel_params.h", kernel_source("kernel_params.h")},
-                              {"common.cl", kernel_source("common.cl")},
-                              {sampler_file_, kernel_source(sampler_file_)},
-                              {kernel_file, kernel_source(kernel_file)}};
-  return Kernel(device_, build_program(device_, parts, options + common_), entry);
+  std::vector<SourcePart> parts;
+  for (const std::string& name : names) parts.push_back({name, kernel_source(name)});
+  return Kernel(device_, build_program(device_, parts, all_options), entry);
 }
 
 Kernel& KernelSet::plain(const std::string& file, const std::string& entry,
                          const std::string& options) {
   auto [it, is_new] = plain_.try_emplace(entry + options);
-  if (is_new) it->second = build(file, entry, options);
+  if (is_new) it->second = build(file, entry, options, {});
   return it->second;
 }
 
@@ -41,8 +75,8 @@ LaneKernel& KernelSet::lanes(const std::string& file, const std::string& options
       tuning["GROUP"] /= 2;
     check_local_memory(entry, item * std::size_t(tuning.at("GROUP")));
     const auto stage = tuning.find("STAGE"), units = tuning.find("UNITS");
-    it->second = {build(file, entry, defines(tuning) + options), tuning.at("LANES"),
-                  tuning.at("GROUP"), units == tuning.end() ? 1 : units->second,
+    it->second = {build(file, entry, options, tuning), tuning.at("LANES"), tuning.at("GROUP"),
+                  units == tuning.end() ? 1 : units->second,
                   stage != tuning.end() && stage->second != 0};
   }
   return it->second;

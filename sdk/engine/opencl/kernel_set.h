@@ -4,6 +4,7 @@
 
 #include <map>
 #include <string>
+#include <vector>
 
 #include "opencl/lane_kernel.h"
 #include "opencl/opencl_workspace.h"
@@ -15,6 +16,12 @@ inline constexpr int kStagedVectors = 4;
 
 /// masks.cl and estimates.cl in one program, which knows no sampler.
 inline constexpr const char* kMapSteps = "map steps";
+
+/// A file of kernels, and the options that most runs have it built with.
+struct KernelFile {
+  std::string name;  ///< without .cl
+  std::string options;
+};
 
 /// The kernels of one workspace, joined with its sampler's twin, each built when first asked for.
 class KernelSet {
@@ -28,6 +35,10 @@ class KernelSet {
         num_views_(num_views),
         overrides_(std::move(overrides)) {}
 
+  /// Makes these files one program: every program costs a start a look through OpenCL's own
+  /// headers, from an empty cache much more. What two of them define means the same in both. Asked
+  /// for with other options, or tuned unlike the ones before it, a file is a program of its own.
+  void join(const std::vector<KernelFile>& files);
   /// A kernel without lanes. file: without .cl.
   Kernel& plain(const std::string& file, const std::string& entry, const std::string& options);
   /// A kernel with the lanes and groups of its tuning. entry: empty, as the file.
@@ -39,13 +50,16 @@ class KernelSet {
   void check_local_memory(const std::string& entry, std::size_t bytes) const;
 
  private:
-  Kernel build(const std::string& file, const std::string& entry, const std::string& options);
+  Kernel build(const std::string& file, const std::string& entry, const std::string& options,
+               const Tuning& tuning);
   Tuning tuning_of(const std::string& kernel) const;
 
   const Device& device_;
   std::string sampler_file_, common_;
   int num_views_;
   TuningOverrides overrides_;
+  std::vector<KernelFile> joined_;
+  Tuning joined_tuning_;
   std::map<std::string, Kernel> plain_;
   std::map<std::string, LaneKernel> lanes_;
 };
