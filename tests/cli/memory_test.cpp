@@ -161,7 +161,13 @@ TEST_F(Memory, KernelsInUseAreNotCleared) {
   const std::string cache = "GIGARAY_CACHE_DIR=$PWD/cache";
   const pid_t child = start({"depth", "made", "-o", "out", "--hypotheses", "40"});
   ASSERT_GT(child, 0);
-  ASSERT_TRUE(wait_until([&] { return fs::exists(folder / "cache/gigaray-programs"); }));
+  ASSERT_TRUE(wait_until([&] {
+    std::error_code error;
+    for (fs::recursive_directory_iterator it(folder / "cache/gigaray-pocl", error), end;
+         !error && it != end; it.increment(error))
+      if (it->path().extension() == ".bc") return true;
+    return false;
+  }));
   const Result clear = [&] {
     const int status = std::system(("cd '" + folder.string() + "' && " + cache + " '" +
                                     GIGARAY_PROGRAM + "' devices --clear-cache >.o2 2>.e2")

@@ -27,10 +27,42 @@ int result(Device& device, int bias = 1) {
   return value;
 }
 
+/// PoCL, which keeps its programs itself, as another driver, or whatever else there is.
+Device open_another() {
+  Device device = Device::open();
+  device.hide_pocl();
+  return device;
+}
+
 using ProgramCache = CacheFixture;
 
+int files_of_pocl(const std::string& name) {
+  int files = 0;
+  for (const auto& entry :
+       std::filesystem::recursive_directory_iterator(std::getenv("POCL_CACHE_DIR")))
+    files += entry.path().filename() == name;
+  return files;
+}
+
+TEST_F(ProgramCache, PoclCompilesAKernelOnceAndNothingIsKeptBesideItsCache) {
+  const SourcePart part{"only_here.cl", "kernel void only_here(global int* x) { x[0] += 40; }"};
+  for (int start = 0; start < 2; ++start) {
+    auto device = Device::open();
+    if (!device.is_pocl()) GTEST_SKIP() << "the device is not PoCL's";
+    Kernel kernel(device, build_program(device, {&part, 1}), "only_here");
+    int value = 2;
+    Buffer buffer(device, std::span<const int>(&value, 1));
+    kernel.set_args(buffer).run(1, 1);
+    buffer.read(std::span(&value, 1));
+    EXPECT_EQ(value, 42);
+    EXPECT_EQ(device.counters().built, 1);
+    EXPECT_EQ(files_of_pocl("only_here.so"), 1);
+  }
+  EXPECT_TRUE(program_files().empty());
+}
+
 TEST_F(ProgramCache, SecondBuildComesFromMemory) {
-  auto device = Device::open();
+  auto device = open_another();
   EXPECT_EQ(result(device), 16);
   EXPECT_EQ(result(device), 16);
   EXPECT_EQ(device.counters().built, 1);
@@ -38,9 +70,9 @@ TEST_F(ProgramCache, SecondBuildComesFromMemory) {
 }
 
 TEST_F(ProgramCache, SecondStartComesFromDisk) {
-  auto first = Device::open();
+  auto first = open_another();
   EXPECT_EQ(result(first), 16);
-  auto second = Device::open();
+  auto second = open_another();
   EXPECT_EQ(result(second), 16);
   EXPECT_EQ(second.counters().built, 0);
   EXPECT_EQ(second.counters().loaded, 1);
@@ -48,7 +80,7 @@ TEST_F(ProgramCache, SecondStartComesFromDisk) {
 }
 
 TEST_F(ProgramCache, OtherOptionsAndOtherSourceAreOtherPrograms) {
-  auto device = Device::open();
+  auto device = open_another();
   EXPECT_EQ(result(device, 1), 16);
   EXPECT_EQ(result(device, 2), 17);
   // The same text cut into other parts: the lines of messages differ, so must the program.
@@ -59,7 +91,7 @@ TEST_F(ProgramCache, OtherOptionsAndOtherSourceAreOtherPrograms) {
 }
 
 TEST_F(ProgramCache, DamagedFilesAreRebuiltAndReplaced) {
-  auto first = Device::open();
+  auto first = open_another();
   ASSERT_EQ(result(first), 16);
   ASSERT_EQ(program_files().size(), 1u);
   const auto path = program_files().front();
@@ -75,10 +107,10 @@ TEST_F(ProgramCache, DamagedFilesAreRebuiltAndReplaced) {
        {flipped_payload, other_version, other_key, good + "x", good.substr(0, good.size() - 1),
         good.substr(0, 48), good.substr(0, 47), std::string()}) {
     overwrite(path, damaged);
-    auto device = Device::open();
+    auto device = open_another();
     EXPECT_EQ(result(device), 16);
     EXPECT_EQ(device.counters().built, 1);
-    auto next = Device::open();
+    auto next = open_another();
     EXPECT_EQ(result(next), 16);
     EXPECT_EQ(next.counters().loaded, 1);
   }
@@ -89,13 +121,13 @@ TEST_F(ProgramCache, ConcurrentWritersLeaveOneGoodFile) {
   std::vector<int> results(4);
   for (auto& value : results)
     threads.emplace_back([&value] {
-      auto device = Device::open();
+      auto device = open_another();
       value = result(device);
     });
   for (auto& thread : threads) thread.join();
   EXPECT_EQ(results, std::vector<int>(4, 16));
   EXPECT_EQ(program_files().size(), 1u);
-  auto device = Device::open();
+  auto device = open_another();
   result(device);
   EXPECT_EQ(device.counters().loaded, 1);
 }
@@ -103,7 +135,7 @@ TEST_F(ProgramCache, ConcurrentWritersLeaveOneGoodFile) {
 TEST_F(ProgramCache, OffLeavesNothingOnDisk) {
   const ScopedVariable off("GIGARAY_CACHE", "off");
   for (int start = 0; start < 2; ++start) {
-    auto device = Device::open();
+    auto device = open_another();
     EXPECT_EQ(result(device), 16);
     EXPECT_EQ(device.counters().built, 1);
   }
@@ -115,13 +147,13 @@ TEST_F(ProgramCache, WorksWhereTheFolderCannotBeMade) {
   // Below a file no folder can be made, not even by root.
   overwrite(folder_ / "file", "");
   const ScopedVariable blocked("GIGARAY_CACHE_DIR", (folder_ / "file" / "below").c_str());
-  auto device = Device::open();
+  auto device = open_another();
   EXPECT_EQ(result(device), 16);
   EXPECT_EQ(kernel_cache_info().programs, 0);
 }
 
 TEST_F(ProgramCache, BuildErrorCarriesFileLineAndOptions) {
-  auto device = Device::open();
+  auto device = open_another();
   const SourcePart parts[] = {{"good.cl", "int good(void);"},
                               {"bad.cl", "kernel void run(global int* x) {\n  x[0] = nowhere;\n}"}};
   try {
@@ -138,7 +170,7 @@ TEST_F(ProgramCache, BuildErrorCarriesFileLineAndOptions) {
 
 TEST_F(ProgramCache, InfoCountsAndClearRemoves) {
   EXPECT_EQ(kernel_cache_info().programs, 0);
-  auto device = Device::open();
+  auto device = open_another();
   result(device, 1);
   result(device, 2);
   overwrite(folder_ / "kernel_tuning.txt", "kept");
@@ -151,13 +183,13 @@ TEST_F(ProgramCache, InfoCountsAndClearRemoves) {
   EXPECT_EQ(kernel_cache_info().programs, 0);
   EXPECT_EQ(kernel_cache_info().bytes, 0u);
   EXPECT_EQ(content(folder_ / "kernel_tuning.txt"), "kept");
-  auto fresh = Device::open();
+  auto fresh = open_another();
   EXPECT_EQ(result(fresh), 16);
   EXPECT_EQ(fresh.counters().built, 1);
 }
 
 TEST_F(ProgramCache, WhatARunUsesIsNotCleared) {
-  auto device = Device::open();
+  auto device = open_another();
   result(device);
   std::filesystem::create_directory(folder_ / "gigaray-pocl");
   {

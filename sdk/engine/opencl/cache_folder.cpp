@@ -169,7 +169,9 @@ KernelCacheInfo kernel_cache_info() {
       const auto size = it->file_size(vanished);
       if (vanished) continue;
       info.bytes += size;
-      if (part == opencl::kProgramFolder && it->path().extension() == ".bin") ++info.programs;
+      // A file of ours per program, one of PoCL's.
+      if (it->path().extension() == ".bin" || it->path().filename() == "program.bc")
+        ++info.programs;
     }
   }
   return info;

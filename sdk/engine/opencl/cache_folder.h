@@ -15,7 +15,7 @@ namespace gigaray::opencl {
 /// variables is set. Read from the environment at every call; the folder need not exist.
 std::optional<std::filesystem::path> cache_folder();
 
-inline constexpr std::string_view kProgramFolder = "gigaray-programs";  ///< <hash>.bin files
+inline constexpr std::string_view kProgramFolder = "gigaray-programs";  ///< <hash>.bin, not PoCL's
 inline constexpr std::string_view kPoclFolder = "gigaray-pocl";         ///< PoCL's own cache
 inline constexpr std::string_view kReadyFolder = "gigaray-ready";  ///< what is compiled already
 

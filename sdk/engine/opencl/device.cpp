@@ -18,7 +18,6 @@ namespace {
 
 /// Returned by the ICD loader when no platform is installed (cl_khr_icd).
 constexpr cl_int kPlatformNotFound = -1001;
-constexpr const char* kPocl = "Portable Computing Language";
 
 struct FoundDevice {
   cl::Device device;

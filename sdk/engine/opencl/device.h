@@ -15,10 +15,13 @@
 
 namespace gigaray::opencl {
 
+/// The name of PoCL's platform.
+inline constexpr const char* kPocl = "Portable Computing Language";
+
 /// How the programs of a device came about.
 struct ProgramCounters {
-  int built = 0;   ///< Compiled from source.
-  int loaded = 0;  ///< Read from the disk cache.
+  int built = 0;   ///< From source. PoCL compiles what is not in its own cache.
+  int loaded = 0;  ///< Read from the cache of programs.
   int reused = 0;  ///< Found in memory.
 };
 
@@ -45,10 +48,13 @@ class Device {
   /// can't do it.
   std::vector<Device> split(int parts) const;
 
+  bool is_pocl() const { return info().platform == kPocl; }
   const DeviceInfo& info() const { return seen_ ? *seen_ : opened_->info; }
   /// As if it had no doubles, or no 64-bit atomics: so that any device can stand for such a one.
   void hide_fp64() { hide().has_fp64 = false; }
   void hide_int64_atomics() { hide().has_int64_atomics = false; }
+  /// As if it were another driver, without a cache of its own.
+  void hide_pocl() { hide().platform = "not PoCL"; }
   void hide_local_memory(std::size_t but_bytes) { hide().local_memory = but_bytes; }
   /// What was given to open(), or GIGARAY_DEVICE if that was empty.
   const std::string& selection() const { return opened_->selection; }

@@ -133,7 +133,8 @@ cl::Program build_program(const Device& device, std::span<const SourcePart> part
     return known->second;
   }
 
-  const auto folder = cache_folder();
+  // PoCL has a cache of its own; to hand out a binary it would compile every kernel once more.
+  const auto folder = device.is_pocl() ? std::nullopt : cache_folder();
   const auto path = folder ? *folder / kProgramFolder / (name + ".bin") : std::filesystem::path();
   cl::Program program;
   if (folder) {

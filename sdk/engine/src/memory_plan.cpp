@@ -19,11 +19,11 @@ namespace gigaray {
 namespace {
 
 constexpr double kMiB = 1 << 20;
-/// The program itself, OpenCL without compiling, decoding buffers of small pictures.
-constexpr double kProcessBytes = 175 * kMiB;
+/// The program itself, OpenCL without compiling kernels, decoding buffers of small pictures.
+constexpr double kProcessBytes = 180 * kMiB;
 /// What compiling kernels takes, and the part of it that is free again when the kernels of a view
 /// are compiled.
-constexpr double kCompilerBytes = 175 * kMiB, kCompilerHeap = 35 * kMiB;
+constexpr double kCompilerBytes = 165 * kMiB, kCompilerHeap = 35 * kMiB;
 /// Tuples are kept in memory with the stores: so many per pixel of a picture, as a rule.
 constexpr double kTuplesPerPixel = 2;
 /// Share of a device's own memory that a run may take: the driver and a display want some.

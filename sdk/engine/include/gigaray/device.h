@@ -77,7 +77,7 @@ class Device {
 struct KernelCacheInfo {
   std::string folder;  ///< Empty when the cache is off or no place for it is known.
   int programs = 0;
-  std::uint64_t bytes = 0;  ///< Of the programs, and of what PoCL keeps beside them.
+  std::uint64_t bytes = 0;  ///< Of the programs, and of what PoCL keeps of their kernels.
 };
 
 KernelCacheInfo kernel_cache_info();
