@@ -58,8 +58,8 @@ void DepthRunOptions::add_all_but_preset_to(CLI::App& app) {
          "auto; of photographs with cameras as many as their distances ask for)")
       ->type_name("N");
   app.add_option("--device", device,
-                 "OpenCL device: index or part of its name, see `gigaray devices`; `reference` for "
-                 "plain, slow C++")
+                 "OpenCL device: index or part of its name, see `gigaray devices`; several with "
+                 "commas between (0,1), or `all`, share the rows; `reference` for plain, slow C++")
       ->type_name("D");
   add_memory_option(app, memory_gib, input.open);
   app.add_option("--work", work_folder,

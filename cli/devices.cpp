@@ -97,7 +97,7 @@ void print_table(const std::vector<DeviceInfo>& devices, int default_index,
 void list(const Options& options) {
   if (options.clear_cache) clear_kernel_cache();
   // Without any device this is the one line that says so.
-  const int default_index = select_device().index;
+  const int default_index = select_devices().front().index;
   const auto devices = list_devices();
   const auto cache = kernel_cache_info();
   if (options.json)

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cctype>
 #include <cstdint>
 #include <numeric>
@@ -12,9 +13,12 @@
 #include "engine/cache_fixture.h"
 #include "opencl/buffer.h"
 #include "opencl/program_cache.h"
+#include "support/errors.h"
 
 namespace gigaray::opencl {
 namespace {
+
+using testing_support::expect_error;
 
 template <class F>
 Error error_of(F f) {
@@ -55,6 +59,30 @@ TEST(Devices, IndexPartOfNameAndTypeSelect) {
   for (char& c : part) c = char(std::toupper(c));
   EXPECT_EQ(select_device(part).index, 0);
   EXPECT_EQ(select_device(to_string(first.type)).type, first.type);
+}
+
+TEST(Devices, ListsAreCutAtCommasAndNameNoneTwice) {
+  const ScopedVariable none("GIGARAY_DEVICE", nullptr);
+  const auto devices = list_devices();
+  std::string list;
+  for (const auto& device : devices)
+    list += (list.empty() ? "" : ", ") + std::to_string(device.index);
+  const auto selected = select_devices(list);
+  ASSERT_EQ(selected.size(), devices.size());
+  for (std::size_t i = 0; i < devices.size(); ++i) EXPECT_EQ(selected[i].index, int(i));
+  expect_error(ErrorCode::kDevice, {"'0,0'", "twice", devices.front().name},
+               [] { select_devices("0,0"); });
+  expect_error(ErrorCode::kDevice, {"'99'", "matches no"}, [] { Device::open_each("0,99"); });
+  expect_error(ErrorCode::kDevice, {"''", "matches no"}, [] { select_devices("0, "); });
+  ASSERT_EQ(select_devices().size(), 1u);
+  EXPECT_EQ(select_devices().front().index, select_device().index);
+  const auto all = select_devices("ALL");
+  for (const auto& device : all) EXPECT_EQ(device.type, select_device().type);
+  EXPECT_EQ(long(all.size()),
+            std::count_if(devices.begin(), devices.end(),
+                          [&](const auto& device) { return device.type == select_device().type; }));
+  const ScopedVariable list_of_one("GIGARAY_DEVICE", "0");
+  EXPECT_EQ(select_devices().size(), 1u);
 }
 
 TEST(Devices, ThreadsThatStartTogetherAllFindThem) {

@@ -42,7 +42,7 @@ DepthResult run(const Estimator& estimator, const Job& job) {
 
 /// The programs of a device, and how they came about.
 opencl::ProgramCounters counters(const Estimator& estimator) {
-  return estimator.device()->opened().counters();
+  return estimator.devices().front().opened().counters();
 }
 
 /// Calls two functions in two threads, as near to each other as can be.
@@ -78,7 +78,7 @@ TEST(Estimators, GiveWhatTheOneOffGives) {
   const RunControl control;
   for (const char* backend : {"opencl", "reference"}) {
     const Estimator estimator = Estimator::of({backend, ""});
-    EXPECT_EQ(estimator.device().has_value(), std::string(backend) == "opencl");
+    EXPECT_EQ(estimator.devices().size(), std::string(backend) == "opencl" ? 1u : 0u);
     expect_identical(all_of(reconstruct(job.light_field, job.options, {backend, ""}, control)),
                      run(estimator, job), backend);
     const ScoreCurve once = probe(job.light_field, job.options, {backend, ""}, 4, 20, 10, control);

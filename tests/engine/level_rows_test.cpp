@@ -21,15 +21,15 @@ class LevelRowsIn : public testing::TestWithParam<Place> {
  protected:
   LevelRowsIn()
       : workspace_(make_reference_workspace(EpiSampler(row_of_views(kViews)), WorkspaceSetup{})) {
-    RowStore store(kRows, kViews * kBytes,
-                   GetParam() == Place::kFile ? work_.path.string() : std::string());
+    const auto store = std::make_shared<RowStore>(
+        kRows, kViews * kBytes, GetParam() == Place::kFile ? work_.path.string() : std::string());
     for (int v = 0; v < kRows; ++v)
       for (int view = 0; view < kViews; ++view)
         for (int i = 0; i < kBytes; ++i) {
           const std::byte byte = value(v, view, i);
-          store.write(v, view * kBytes + i, 1, &byte);
+          store->write(v, view * kBytes + i, 1, &byte);
         }
-    rows_ = LevelRows(*workspace_, std::move(store), kRows, kViews, GetParam());
+    rows_ = LevelRows(*workspace_, store, RowRange{0, kRows}, kViews, GetParam());
   }
   std::size_t offset(const RowsOnDevice& rows, int v, int at, int bytes = kBytes) const {
     return (std::size_t(v - rows.begin) * rows.stored_views + at) * bytes;

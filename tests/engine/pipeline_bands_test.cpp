@@ -8,9 +8,7 @@
 #include <set>
 
 #include "engine/cache_fixture.h"
-#include "gigaray/device.h"
-#include "src/make_workspace.h"
-#include "src/pipeline.h"
+#include "engine/planned_run.h"
 #include "support/analytic_field.h"
 #include "support/depth_result.h"
 #include "support/memory_limits.h"
@@ -94,77 +92,18 @@ INSTANTIATE_TEST_SUITE_P(Jobs, PipelineBands,
                                          Job{"Auto4D", "auto", true}),
                          [](const auto& info) { return info.param.name; });
 
-/// A run with bands and strips of a given height, where memory would not ask for them.
-struct PlannedRun {
-  std::vector<RayTuple> tuples;
-  std::vector<std::vector<float>> maps;  // disparity, confidence and level of every view
-
-  PlannedRun(const LightField& light_field, DepthOptions options, const std::string& backend_name,
-             int band_rows, bool least_strips, bool keeps_scores, Place place,
-             const std::string& work_folder) {
-    const HypothesisRange hypotheses{options.disparity->min, options.disparity->max,
-                                     options.hypotheses};
-    options.memory_bytes = 4e9;
-    MemoryPlan plan = plan_memory(light_field, options, hypotheses, DeviceLimits{});
-    for (LevelPlan& level : plan.levels) {
-      // Scan-lines work on whole blocks of rows.
-      const bool blocks = options.support.scanline && level.shape.level == 0;
-      const int least = blocks ? kScanlineBlock : 1;
-      const int rows = (band_rows + least - 1) / least * least;
-      level.band_rows = std::min(rows, level.shape.height);
-      level.window_rows = keeps_scores ? level.band_rows : 0;
-      level.strip_rows = least_strips ? least : level.band_rows;
-      level.keeps_scores = keeps_scores;
-    }
-    plan.work_folder = work_folder;
-    plan.place = place;
-    const WorkspaceSetup setup{options, hypotheses, light_field.kind,
-                               light_field.pixels->bit_depth()};
-    const RunControl control;
-    std::visit(
-        [&](const auto& sampler) {
-          const auto workspace =
-              backend_name == "reference"
-                  ? make_reference_workspace(sampler, setup)
-                  : make_opencl_workspace(sampler, setup, Device::open().opened());
-          Pipeline pipeline(light_field, options, hypotheses, plan, *workspace, control);
-          pipeline.run();
-          pipeline.tuples().for_each([&](const RayTuple& tuple) { tuples.push_back(tuple); });
-          const int width = light_field.width;
-          for (int view = 0; view < int(pipeline.active_views().size()); ++view)
-            for (int v = 0; v < light_field.height; ++v) {
-              std::vector<std::int8_t> level(width);
-              maps.emplace_back(3 * width);
-              pipeline.maps().read(view, v, maps.back().data(), maps.back().data() + width,
-                                   level.data());
-              std::copy(level.begin(), level.end(), maps.back().begin() + 2 * width);
-              for (float& value : maps.back())
-                if (std::isnan(value)) value = -1000;  // equal to itself
-            }
-        },
-        make_sampler(light_field));
-  }
-
-  void expect_same(const PlannedRun& other, const std::string& what) const {
-    EXPECT_TRUE(maps == other.maps) << what;
-    ASSERT_EQ(tuples.size(), other.tuples.size()) << what;
-    for (std::size_t i = 0; i < tuples.size(); ++i)
-      ASSERT_TRUE(same_bits(tuples[i], other.tuples[i])) << what << ", tuple " << i;
-  }
-};
-
 void expect_bands_alike(const std::string& backend, const LightField& light_field,
                         const DepthOptions& options) {
   const ScopedFolder work;
-  const PlannedRun expected(light_field, options, backend, 1000, false, true, Place::kDevice, "");
+  const PlannedRun expected(light_field, options, backend, {});
   EXPECT_GT(expected.tuples.size(), std::size_t(light_field.width) * light_field.height / 2);
-  for (const int band_rows : {1, 5, 8, 19, 50})
-    PlannedRun(light_field, options, backend, band_rows, band_rows == 8, band_rows != 19,
-               band_rows == 5    ? Place::kFile
-               : band_rows == 19 ? Place::kHost
-                                 : Place::kDevice,
-               band_rows == 5 ? work.path.string() : "")
+  for (const int band_rows : {1, 5, 8, 19, 50}) {
+    Cut cut{band_rows, band_rows == 8, band_rows != 19};
+    if (band_rows == 19) cut.place = Place::kHost;
+    if (band_rows == 5) cut.in_files(work.path);
+    PlannedRun(light_field, options, backend, cut)
         .expect_same(expected, backend + " in bands of " + std::to_string(band_rows));
+  }
 }
 
 TEST(PipelineBandHeight, ReferenceGivesTheSameBitsInAnyBands) {

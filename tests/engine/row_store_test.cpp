@@ -6,9 +6,13 @@
 #include <signal.h>
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <cstring>
 #include <fstream>
 #include <numeric>
+#include <set>
+#include <utility>
+#include <vector>
 
 #include "engine/cache_fixture.h"
 #include "src/tuple_store.h"
@@ -119,20 +123,49 @@ TEST(TupleStore, KeepsTheOrderInMemoryAndInAFile) {
   constexpr int kMany = (1 << 20) + 4099;  // more than are held in memory
   for (const std::string& folder : {std::string(), work.path.string()}) {
     TupleStore store(folder);
+    const std::set<int> begins{0, 5, 1 << 18, kMany - 7};  // of views
     for (int i = 0; i < kMany; ++i) {
+      if (begins.count(i) > 0) store.begin_view();
       std::vector<RayTuple> tuples(1);
       tuples[0].u = i;
       store.append(tuples);
     }
+    store.begin_view();  // without any
     EXPECT_EQ(store.size(), std::size_t(kMany));
+    ASSERT_EQ(store.num_views(), int(begins.size()) + 1);
     for (int pass = 0; pass < 2; ++pass) {
       int next = 0, wrong = 0;
-      store.for_each([&](const RayTuple& tuple) { wrong += tuple.u != next++; });
+      for (int view = 0; view < store.num_views(); ++view) {
+        wrong += view < int(begins.size()) && begins.count(next) == 0;
+        store.for_each(view, [&](const RayTuple& tuple) { wrong += tuple.u != next++; });
+      }
       EXPECT_EQ(next, kMany);
       EXPECT_EQ(wrong, 0);
     }
     EXPECT_TRUE(std::filesystem::is_empty(work.path));
   }
+}
+
+TEST(RunTuples, OfEveryViewOnePartitionAfterTheOther) {
+  RunTuples all;
+  for (const int partition : {0, 1}) {
+    TupleStore store("");
+    for (const int view : {0, 1, 2}) {
+      store.begin_view();
+      std::vector<RayTuple> tuples(view == 1 && partition == 0 ? 0 : 2);
+      for (RayTuple& tuple : tuples) {
+        tuple.view = view;
+        tuple.v = partition;
+      }
+      store.append(tuples);
+    }
+    all.add(std::move(store));
+  }
+  std::vector<std::pair<int, int>> order;
+  all.for_each([&](const RayTuple& tuple) { order.emplace_back(tuple.view, tuple.v); });
+  EXPECT_EQ(all.size(), 10u);
+  EXPECT_EQ(order.size(), all.size());
+  EXPECT_TRUE(std::is_sorted(order.begin(), order.end()));
 }
 
 TEST(TupleStore, NoRoomIsAnErrorThatNamesTheFolder) {

@@ -4,11 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <map>
+#include <memory>
 
+#include "gigaray/samplers/any_sampler.h"
 #include "opencl/device.h"
 #include "opencl/opencl_workspace.h"
 #include "src/make_workspace.h"
-#include "src/pipeline.h"
+#include "src/run.h"
 #include "support/analytic_field.h"
 
 namespace gigaray::testing_support {
@@ -31,20 +33,21 @@ std::map<std::string, LevelTraffic> watch(const LightField& light_field, std::si
   std::map<std::string, LevelTraffic> by_level;
   std::visit(
       [&](const auto& sampler) {
-        const auto workspace = make_opencl_workspace(
-            sampler, {options, hypotheses, light_field.kind, 8}, opencl::Device::open());
+        std::vector<std::unique_ptr<Workspace>> workspaces;
+        workspaces.push_back(make_opencl_workspace(
+            sampler, {options, hypotheses, light_field.kind, 8}, opencl::Device::open()));
+        const Workspace& workspace = *workspaces.front();
         RunControl control;
         std::map<std::string, int> reports;
         control.on_progress = [&](const std::string& stage, double, double) {
           if (stage == "decode" || stage == "depth") return;
           LevelTraffic& level = by_level[stage];
-          level.last = workspace->traffic();
+          level.last = workspace.traffic();
           if (++reports[stage] == 1) level.first = level.last;
         };
-        Pipeline pipeline(light_field, options, hypotheses, plan, *workspace, control);
-        pipeline.run();
-        tuples = pipeline.tuples().size();
-        all = workspace->traffic();
+        tuples = run_pipeline({light_field, options, hypotheses, plan, control}, workspaces)
+                     .tuples.size();
+        all = workspace.traffic();
       },
       make_sampler(light_field));
   return by_level;

@@ -51,8 +51,8 @@ class Buffer {
     read_bytes(data.data(), data.size_bytes(), offset, CL_TRUE);
   }
   /// Does not block: what is read is there when a later command has been waited for.
-  void read_later(std::span<std::byte> data) const {
-    read_bytes(data.data(), data.size_bytes(), 0, CL_FALSE);
+  void read_later(std::span<std::byte> data, std::size_t offset = 0) const {
+    read_bytes(data.data(), data.size_bytes(), offset, CL_FALSE);
   }
 
   /// Sets every byte to 0. Does not block.

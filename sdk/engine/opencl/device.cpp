@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <charconv>
 #include <mutex>
+#include <sstream>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "opencl/cache_folder.h"
@@ -91,6 +93,7 @@ std::vector<FoundDevice> find_devices() {
 /// The first device that the selection means; end() if none.
 std::vector<FoundDevice>::const_iterator match(const std::vector<FoundDevice>& found,
                                                const std::string& selection) {
+  if (selection.empty()) return found.end();
   int index = 0;
   const char* end = selection.data() + selection.size();
   if (const auto [stop, error] = std::from_chars(selection.data(), end, index);
@@ -107,8 +110,8 @@ std::vector<FoundDevice>::const_iterator match(const std::vector<FoundDevice>& f
   });
 }
 
-FoundDevice select(const std::string& given) {
-  const auto found = find_devices();
+std::vector<FoundDevice> require_devices() {
+  auto found = find_devices();
   if (const std::string& why = give_pocl_a_cache(); found.empty() && !why.empty())
     throw Error(ErrorCode::kDevice, "no OpenCL device: PoCL has no folder to compile kernels in: " +
                                         why + "; name one with " + std::to_string(kPoclRoom >> 20) +
@@ -116,14 +119,22 @@ FoundDevice select(const std::string& given) {
   if (found.empty())
     throw Error(ErrorCode::kDevice,
                 "no OpenCL device found: install pocl-opencl-icd or a GPU driver");
-  const std::string selection = stated_device(given);
-  if (selection.empty()) {
-    for (const auto type : {DeviceType::kGpu, DeviceType::kCpu}) {
-      for (const auto& device : found)
-        if (device.info.type == type) return device;
-    }
-    return found.front();
+  return found;
+}
+
+/// What is taken when nothing is stated.
+const FoundDevice& usual(const std::vector<FoundDevice>& found) {
+  for (const auto type : {DeviceType::kGpu, DeviceType::kCpu}) {
+    for (const auto& device : found)
+      if (device.info.type == type) return device;
   }
+  return found.front();
+}
+
+/// given: what the user said, of which `selection` is all, a part or the environment's in its
+/// place.
+const FoundDevice& select(const std::vector<FoundDevice>& found, const std::string& selection,
+                          const std::string& given) {
   const auto chosen = match(found, selection);
   if (chosen != found.end()) return *chosen;
   const std::string source = given.empty() ? "GIGARAY_DEVICE" : "device";
@@ -132,6 +143,37 @@ FoundDevice select(const std::string& given) {
     message += (device.info.index ? ", " : " ") + std::to_string(device.info.index) + ": " +
                device.info.name;
   throw Error(ErrorCode::kDevice, message);
+}
+
+FoundDevice select(const std::string& given) {
+  const auto found = require_devices();
+  const std::string selection = stated_device(given);
+  return selection.empty() ? usual(found) : select(found, selection, given);
+}
+
+/// Each with what selects it alone.
+std::vector<std::pair<FoundDevice, std::string>> select_each(const std::string& given) {
+  const auto found = require_devices();
+  const std::string selections = stated_device(given);
+  std::vector<std::pair<FoundDevice, std::string>> chosen;
+  if (selections.empty()) return {{usual(found), ""}};
+  if (lower_case(selections) == "all") {
+    for (const FoundDevice& device : found)
+      if (device.info.type == usual(found).info.type)
+        chosen.emplace_back(device, std::to_string(device.info.index));
+    return chosen;
+  }
+  std::istringstream list(selections);
+  for (std::string selection; std::getline(list, selection, ',');) {
+    const FoundDevice& device = select(found, std::string(trimmed(selection)), given);
+    for (const auto& [other, name] : chosen)
+      if (other.info.index == device.info.index)
+        throw Error(ErrorCode::kDevice, "device list '" + selections + "' names " +
+                                            std::to_string(device.info.index) + ": " +
+                                            device.info.name + " twice");
+    chosen.emplace_back(device, selection);
+  }
+  return chosen;
 }
 
 }  // namespace
@@ -159,6 +201,13 @@ Device Device::make(cl::Device id, DeviceInfo info, std::string selection) {
 Device Device::open(const std::string& selection) {
   FoundDevice found = select(selection);
   return make(std::move(found.device), std::move(found.info), stated_device(selection));
+}
+
+std::vector<Device> Device::open_each(const std::string& selections) {
+  std::vector<Device> devices;
+  for (auto& [found, selection] : select_each(selections))
+    devices.push_back(make(std::move(found.device), std::move(found.info), selection));
+  return devices;
 }
 
 Device Device::with_own_queue() const {
@@ -217,12 +266,26 @@ std::vector<DeviceInfo> list_devices() {
 
 DeviceInfo select_device(const std::string& selection) { return opencl::select(selection).info; }
 
+std::vector<DeviceInfo> select_devices(const std::string& selections) {
+  std::vector<DeviceInfo> devices;
+  for (auto& [found, selection] : opencl::select_each(selections))
+    devices.push_back(std::move(found.info));
+  return devices;
+}
+
 Device::Device(std::shared_ptr<const opencl::Device> opened) : opened_(std::move(opened)) {
   GIGARAY_CHECK(opened_ != nullptr);
 }
 
 Device Device::open(const std::string& selection) {
   return Device(std::make_shared<const opencl::Device>(opencl::Device::open(selection)));
+}
+
+std::vector<Device> Device::open_each(const std::string& selections) {
+  std::vector<Device> devices;
+  for (opencl::Device& opened : opencl::Device::open_each(selections))
+    devices.emplace_back(std::make_shared<const opencl::Device>(std::move(opened)));
+  return devices;
 }
 
 const DeviceInfo& Device::info() const { return opened_->info(); }

@@ -39,6 +39,8 @@ class Device {
  public:
   /// selection: see select_device(). Throws Error(kDevice).
   static Device open(const std::string& selection = "");
+  /// selections: see select_devices(). Throws Error(kDevice).
+  static std::vector<Device> open_each(const std::string& selections = "");
 
   /// The same context and programs with a queue and a log of its own. Thread-safe.
   Device with_own_queue() const;
@@ -53,6 +55,7 @@ class Device {
   /// As if it had no doubles, or no 64-bit atomics: so that any device can stand for such a one.
   void hide_fp64() { hide().has_fp64 = false; }
   void hide_int64_atomics() { hide().has_int64_atomics = false; }
+  void hide_shared_memory() { hide().shares_host_memory = false; }
   /// As if it were another driver, without a cache of its own.
   void hide_pocl() { hide().platform = "not PoCL"; }
   void hide_local_memory(std::size_t but_bytes) { hide().local_memory = but_bytes; }

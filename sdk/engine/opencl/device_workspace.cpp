@@ -70,8 +70,9 @@ void DeviceWorkspace::read(const Memory& memory, std::span<std::byte> data, std:
   device_.log()->collect();
 }
 
-void DeviceWorkspace::read_later(const Memory& memory, std::span<std::byte> data) {
-  buffer_of(&memory).read_later(data);
+void DeviceWorkspace::read_later(const Memory& memory, std::span<std::byte> data,
+                                 std::size_t offset) {
+  buffer_of(&memory).read_later(data, offset);
   traffic_.bytes_down += data.size();
 }
 

@@ -33,7 +33,7 @@ class DeviceWorkspace : public Workspace {
   std::shared_ptr<Memory> adopt(std::span<std::byte> host) override;
   void write(Memory& memory, std::span<const std::byte> data, std::size_t offset) override;
   void read(const Memory& memory, std::span<std::byte> data, std::size_t offset) override;
-  void read_later(const Memory& memory, std::span<std::byte> data) override;
+  void read_later(const Memory& memory, std::span<std::byte> data, std::size_t offset) override;
   std::span<std::byte> map(Memory& memory, bool to_fill) override;
   void unmap(Memory& memory, std::span<std::byte> mapped) override;
   void finish() override;

@@ -20,6 +20,7 @@ std::unique_ptr<Workspace> make_tuned_workspace(const S& sampler, const Workspac
     };
     if (lacks("FP64")) device.hide_fp64();
     if (lacks("INT64_ATOMICS")) device.hide_int64_atomics();
+    if (lacks("SHARED_MEMORY")) device.hide_shared_memory();
     if (const auto local = parts->second.find("LOCAL_MEMORY"); local != parts->second.end())
       device.hide_local_memory(std::size_t(local->second));
   }

@@ -13,8 +13,8 @@ namespace gigaray::opencl {
 
 /// Parameters by kernel that win over those of lookup_tuning().
 using TuningOverrides = std::map<std::string, Tuning>;
-/// In their place a part of the device that is done without: FP64 0, INT64_ATOMICS 0, LOCAL_MEMORY
-/// but for so many bytes.
+/// In their place a part of the device that is done without: FP64 0, INT64_ATOMICS 0,
+/// SHARED_MEMORY 0 (with the host), LOCAL_MEMORY but for so many bytes.
 inline constexpr const char* kDeviceParts = "device parts";
 
 /// make_opencl_workspace() with other compile-time parameters: what tuning tries.

@@ -89,8 +89,8 @@ class ReferenceWorkspace : public Workspace {
   void read(const Memory& memory, std::span<std::byte> data, std::size_t offset) override {
     std::memcpy(data.data(), bytes_of(memory) + offset, data.size());
   }
-  void read_later(const Memory& memory, std::span<std::byte> data) override {
-    read(memory, data, 0);
+  void read_later(const Memory& memory, std::span<std::byte> data, std::size_t offset) override {
+    read(memory, data, offset);
   }
   std::span<std::byte> map(Memory& memory, bool) override {
     return {bytes_of(memory), memory.bytes()};

@@ -7,7 +7,7 @@ namespace gigaray {
 void FinishedMaps::put(int view, MapView<const float> disparity, MapView<const float> confidence,
                        MapView<const std::int8_t> level) {
   const std::size_t floats = std::size_t(width_) * sizeof(float);
-  for (int v = 0; v < height_; ++v) {
+  for (int v = disparity.rows().begin; v < disparity.rows().end; ++v) {
     const int row = view * height_ + v;
     rows_.write(row, 0, floats, disparity.row(v));
     rows_.write(row, floats, floats, confidence.row(v));

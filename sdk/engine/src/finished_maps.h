@@ -31,8 +31,10 @@ class FinishedMaps {
         height_(height),
         rows_(views * height, std::size_t(width) * kPixelBytes, folder) {}
 
+  bool empty() const { return rows_.empty(); }
   int width() const { return width_; }
   int height() const { return height_; }
+  /// Some rows of a view. Different rows may be put by different threads.
   void put(int view, MapView<const float> disparity, MapView<const float> confidence,
            MapView<const std::int8_t> level);
   /// A row of each; null: not wanted.

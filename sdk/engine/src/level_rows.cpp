@@ -9,24 +9,38 @@
 
 namespace gigaray {
 
-LevelRows::LevelRows(Workspace& workspace, int rows, int views, std::size_t view_bytes, Place place,
-                     const std::string& folder)
-    : workspace_(&workspace), rows_(rows), views_(views), view_bytes_(view_bytes) {
-  if (place == Place::kDevice)
-    memory_ = workspace.allocate(std::size_t(rows) * views * view_bytes);
-  else
-    store_ = RowStore(rows, views * view_bytes, place == Place::kFile ? folder : "");
-}
-
-LevelRows::LevelRows(Workspace& workspace, RowStore store, int rows, int views, Place place)
+LevelRows::LevelRows(Workspace& workspace, RowRange rows, int views, std::size_t view_bytes,
+                     Place place, const std::string& folder)
     : workspace_(&workspace),
       rows_(rows),
       views_(views),
-      view_bytes_(store.row_bytes() / std::size_t(views)),
+      view_bytes_(view_bytes),
+      memory_begin_(rows.begin),
+      store_begin_(rows.begin) {
+  if (place == Place::kDevice)
+    memory_ = workspace.allocate(std::size_t(rows.size()) * row_bytes());
+  else
+    store_ =
+        std::make_shared<RowStore>(rows.size(), row_bytes(), place == Place::kFile ? folder : "");
+}
+
+LevelRows::LevelRows(Workspace& workspace, std::shared_ptr<RowStore> store, RowRange wanted,
+                     int views, Place place)
+    : workspace_(&workspace),
+      rows_(wanted),
+      views_(views),
+      view_bytes_(store->row_bytes() / std::size_t(views)),
       store_(std::move(store)) {
   if (place != Place::kDevice) return;
-  memory_ = workspace.adopt(store_.bytes());
-  if (!workspace.shares_host_memory()) store_ = RowStore();
+  const std::span<std::byte> all = store_->bytes();
+  if (workspace.shares_host_memory()) {
+    memory_ = workspace.adopt(all);
+    return;
+  }
+  memory_begin_ = wanted.begin;
+  memory_ = workspace.adopt(
+      all.subspan(std::size_t(wanted.begin) * row_bytes(), wanted.size() * row_bytes()));
+  store_.reset();
 }
 
 RowsOnDevice LevelRows::stage(RowRange rows, std::size_t views, std::size_t view_bytes) {
@@ -64,12 +78,13 @@ class Mapped {
 }  // namespace
 
 RowsOnDevice LevelRows::open(RowRange rows) {
-  if (memory_) return {memory_, 0, views_};
+  GIGARAY_CHECK(rows.begin >= rows_.begin && rows.end <= rows_.end);
+  if (memory_) return {memory_, memory_begin_, views_};
   const RowsOnDevice opened = stage(rows, views_, view_bytes_);
   const Mapped mapped(*workspace_, *opened.memory, true);
   for (int v = rows.begin; v < rows.end; ++v)
-    store_.read(v, 0, store_.row_bytes(),
-                mapped.data() + std::size_t(v - rows.begin) * store_.row_bytes());
+    store_->read(v - store_begin_, 0, row_bytes(),
+                 mapped.data() + std::size_t(v - rows.begin) * row_bytes());
   return opened;
 }
 
@@ -81,7 +96,7 @@ RowsOnDevice LevelRows::open(RowRange rows, const std::vector<int>& views, std::
   std::byte* out = mapped.data();
   for (int v = rows.begin; v < rows.end; ++v)
     for (const int view : views) {
-      store_.read(v, view * view_bytes_, view_bytes_, out);
+      store_->read(v - store_begin_, view * view_bytes_, view_bytes_, out);
       out += view_bytes_;
     }
   at = all_views(int(views.size()));
@@ -99,7 +114,7 @@ RowsOnDevice LevelRows::open_coarse(RowRange rows, int shift, const std::vector<
   std::vector<std::byte> line(view_bytes_);
   for (int v = rows.begin; v < rows.end; ++v)
     for (const int view : views) {
-      store_.read(v << shift, view * view_bytes_, view_bytes_, line.data());
+      store_->read((v << shift) - store_begin_, view * view_bytes_, view_bytes_, line.data());
       for (std::size_t i = 0; i < coarse_bytes; ++i) *out++ = line[i << shift];
     }
   return opened;
@@ -115,8 +130,8 @@ void LevelRows::close(RowRange rows, const RowsOnDevice& opened) {
   if (memory_) return;
   const Mapped mapped(*workspace_, *opened.memory, false);
   for (int v = rows.begin; v < rows.end; ++v)
-    store_.write(v, 0, store_.row_bytes(),
-                 mapped.data() + std::size_t(v - rows.begin) * store_.row_bytes());
+    store_->write(v - store_begin_, 0, row_bytes(),
+                  mapped.data() + std::size_t(v - rows.begin) * row_bytes());
 }
 
 void LevelRows::close(RowRange rows, const std::vector<int>& views, const RowsOnDevice& opened) {
@@ -126,9 +141,27 @@ void LevelRows::close(RowRange rows, const std::vector<int>& views, const RowsOn
   const std::byte* in = mapped.data();
   for (int v = rows.begin; v < rows.end; ++v)
     for (const int view : views) {
-      store_.write(v, view * view_bytes_, view_bytes_, in);
+      store_->write(v - store_begin_, view * view_bytes_, view_bytes_, in);
       in += view_bytes_;
     }
+}
+
+void LevelRows::read(RowRange rows, std::byte* out) {
+  const std::size_t bytes = row_bytes();
+  if (memory_)
+    return workspace_->read(*memory_, {out, rows.size() * bytes},
+                            std::size_t(rows.begin - memory_begin_) * bytes);
+  for (int v = rows.begin; v < rows.end; ++v, out += bytes)
+    store_->read(v - store_begin_, 0, bytes, out);
+}
+
+void LevelRows::write(RowRange rows, const std::byte* in) {
+  const std::size_t bytes = row_bytes();
+  if (memory_)
+    return workspace_->write(*memory_, {in, rows.size() * bytes},
+                             std::size_t(rows.begin - memory_begin_) * bytes);
+  for (int v = rows.begin; v < rows.end; ++v, in += bytes)
+    store_->write(v - store_begin_, 0, bytes, in);
 }
 
 }  // namespace gigaray

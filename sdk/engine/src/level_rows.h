@@ -18,20 +18,21 @@ enum class Place {
   kFile     ///< in files
 };
 
-/// Rows of some views of one level side by side: [v][view][…]. On the device, or in a RowStore from
-/// where some rows at a time are brought. Zero at first.
+/// Some rows of some views of one level side by side: [v][view][…]. On the device, or in a RowStore
+/// from where some rows at a time are brought. Zero at first.
 class LevelRows {
  public:
   LevelRows() = default;
   /// view_bytes: of a row of one view. folder: for files.
-  LevelRows(Workspace& workspace, int rows, int views, std::size_t view_bytes, Place place,
+  LevelRows(Workspace& workspace, RowRange rows, int views, std::size_t view_bytes, Place place,
             const std::string& folder);
-  /// The same with rows that are there already, [v][view][…].
-  LevelRows(Workspace& workspace, RowStore store, int rows, int views, Place place);
+  /// Of all rows of a level, [v][view][…], which nobody writes any more, those that are wanted.
+  LevelRows(Workspace& workspace, std::shared_ptr<RowStore> store, RowRange wanted, int views,
+            Place place);
 
-  bool empty() const { return rows_ == 0; }
+  bool empty() const { return rows_.size() == 0; }
   int views() const { return views_; }
-  std::size_t view_bytes() const { return view_bytes_; }
+  std::size_t row_bytes() const { return std::size_t(views_) * view_bytes_; }
   bool on_device() const { return memory_ != nullptr; }
 
   /// Rows of all views.
@@ -49,14 +50,21 @@ class LevelRows {
   void close(RowRange rows, const std::vector<int>& views, const RowsOnDevice& opened);
   void close(RowRange rows, int view, const ViewRows& opened) { close(rows, {view}, opened.rows); }
 
+  /// Rows of all views to and from the host's memory. Waits.
+  void read(RowRange rows, std::byte* out);
+  void write(RowRange rows, const std::byte* in);
+
  private:
   RowsOnDevice stage(RowRange rows, std::size_t views, std::size_t view_bytes);
 
   Workspace* workspace_ = nullptr;
-  int rows_ = 0, views_ = 0;
+  RowRange rows_;
+  int views_ = 0;
   std::size_t view_bytes_ = 0;
-  std::shared_ptr<Memory> memory_;  ///< all rows; null: they are in the store
-  RowStore store_;
+  std::shared_ptr<Memory> memory_;  ///< of the rows from memory_begin_; null: they are in the store
+  int memory_begin_ = 0;
+  std::shared_ptr<RowStore> store_;  ///< of the rows from store_begin_
+  int store_begin_ = 0;
   std::shared_ptr<Memory> staged_;  ///< the rows that are open
 };
 

@@ -136,7 +136,7 @@ class Planner {
   /// Whatever the bands are.
   double fixed_bytes(double volume) const {
     return kProcessBytes + compiler_bytes() + options_.memory_beside + map_bytes() +
-           (device_.shares_host_memory ? score_bytes(volume) : 0);
+           (device_.shares_host_memory ? device_.devices * score_bytes(volume) : 0);
   }
 
   double score_bytes(double volume) const {
@@ -157,7 +157,7 @@ class Planner {
            (46 + (support.slanted ? 20 : 0) + (options_.score.ray_mean ? 20 : 0));
   }
   double map_bytes() const {
-    const double view_maps = device_.shares_host_memory ? view_map_bytes() : 0;
+    const double view_maps = device_.shares_host_memory ? device_.devices * view_map_bytes() : 0;
     return std::max(view_maps, std::min(4, num_threads()) * decoder_bytes());
   }
 
@@ -178,8 +178,10 @@ class Planner {
     const double on_host = device_.shares_host_memory || staged ? stores : passing_bytes();
     const double fixed = fixed_bytes(volume);
     if (!staged && largest_store() > device_.largest_buffer) return std::nullopt;
-    // A device with memory of its own holds bands, scores and maps there; the host the rest.
-    double room = limit - fixed - on_host;
+    // A device with memory of its own holds bands, scores and maps there; the host the rest. Each
+    // of several is planned as if it had all rows: how many it has of other partitions depends on
+    // where rays go.
+    double room = (limit - fixed - on_host) / device_.devices;
     if (!device_.shares_host_memory) {
       if (room < 0) return std::nullopt;
       room = device_memory() - score_bytes(volume) - view_map_bytes() - (staged ? 0 : stores);
@@ -215,7 +217,7 @@ class Planner {
       level.window_rows = sweeps ? window_rows(shape, level.band_rows, stage_lag) : 0;
       result.levels.push_back(level);
     }
-    const double bands_on_host = device_.shares_host_memory ? peak_band : 0;
+    const double bands_on_host = device_.shares_host_memory ? device_.devices * peak_band : 0;
     result.forecast.memory_bytes = fixed + bands_on_host + on_host;
     result.compiler_bytes = compiler_bytes();
     // Pictures that were kept from the first look (kept_pictures.h) may take a third of it.
@@ -236,7 +238,7 @@ class Planner {
       const int rows = std::min(strip_needs(options_.support, shape.level).multiple, shape.height);
       peak_band = std::max(peak_band, band_bytes(shape, cost, rows, 0));
     }
-    return fixed_bytes(least_volume()) + peak_band;
+    return fixed_bytes(least_volume()) + device_.devices * peak_band;
   }
 
   /// With all stores and one band in memory.

@@ -35,11 +35,12 @@ struct MemoryPlan {
   int decoders = 1;  ///< Pictures that may be decoded at a time, in the room of the bands to come.
 };
 
-/// What a device has.
+/// What a device has, or each of several alike that share a run.
 struct DeviceLimits {
   double memory = 0;                   ///< bytes of its own
   double largest_buffer = 1800 << 20;  ///< bytes; every driver we know grants so much
   bool shares_host_memory = true;      ///< then it has no other memory than the host's
+  int devices = 1;
 };
 
 /// options: resolved (range, hypotheses). Throws Error(kOutOfMemory) when even one row at a time

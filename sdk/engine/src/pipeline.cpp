@@ -6,46 +6,50 @@
 #include <cmath>
 #include <span>
 
-#include "gigaray/parallel.h"
 #include "stage_timer.h"
 
 namespace gigaray {
 
-Pipeline::Pipeline(const LightField& light_field, const DepthOptions& options,
-                   const HypothesisRange& hypotheses, const MemoryPlan& plan, Workspace& workspace,
-                   const RunControl& control)
-    : light_field_(light_field),
-      options_(options),
-      hypotheses_(hypotheses),
-      plan_(plan),
+Pipeline::Pipeline(const Run& run, const std::vector<std::vector<PartitionRows>>& rows,
+                   DecodedPictures pictures, Workspace& workspace, RunResult& result)
+    : light_field_(run.light_field),
+      options_(run.options),
+      hypotheses_(run.hypotheses),
+      plan_(run.plan),
+      control_(run.control),
+      rows_(rows),
+      pictures_(std::move(pictures)),
       workspace_(workspace),
-      control_(control),
-      sampler_(make_sampler(light_field)),
-      tuples_(plan.work_folder) {
-  for (const int view : views_from_centre(light_field))
-    if (options.views.empty() ||
-        std::find(options.views.begin(), options.views.end(), view) != options.views.end())
-      active_.push_back(view);
-  for (int view = 0; view < light_field.num_views(); ++view)
+      result_(result),
+      sampler_(make_sampler(run.light_field)),
+      active_(active_views(run.light_field, run.options)),
+      tuples_(run.plan.work_folder) {
+  for (int view = 0; view < light_field_.num_views(); ++view)
     partners_.push_back(
         std::visit([&](const auto& sampler) { return sampler.partners(view); }, sampler_));
+  for (std::size_t level = 0; level < plan_.levels.size(); ++level)
+    rays_stay_.push_back(do_rays_stay(int(level)));
 }
 
-void Pipeline::run() {
+void Pipeline::run(Partition& partition) {
+  partition_ = &partition;
   workspace_.set_active_views(active_);
   for (level_ = 0; level_ < int(plan_.levels.size()); ++level_) {
-    begin_level(level_);
+    begin_level();
     find_edges_and_downsample();
     for (int i = 0; i < int(active_.size()); ++i) {
       report(double(i) / double(active_.size()));
       if (!find_todo(i)) continue;
       sweep(i);
+      propagate_to_others(i);
       clear_bars(i);
       collect_tuples(active_[i]);
     }
+    // The next level, and the finished maps, begin in the middle of two rows.
+    LevelState& state = levels_[level_];
+    bring_rows(state.estimates, level_, grown(rows().own, 1, shape().height));
     if (!is_last_level()) coarsen();
     if (options_.keep_searches && level_ > 0) keep_searches();
-    LevelState& state = levels_[level_];
     for (LevelRows* rows : {&state.pixels, &state.mask, &state.bars, &state.search})
       *rows = LevelRows();
   }
@@ -57,6 +61,7 @@ void Pipeline::report(double done) {
   // A level has a quarter of the pixels of the level before: its share of the work.
   const double before = 1 - std::pow(0.25, level_), share = 0.75 * std::pow(0.25, level_);
   const bool finished = level_ >= int(plan_.levels.size());
+  if (partition_->index() > 0) return control_.throw_if_cancelled();
   control_.progress(finished ? "depth" : "level " + std::to_string(level_),
                     finished ? 1 : before + share * done, 1);
 }
@@ -69,59 +74,33 @@ std::map<std::string, double> Pipeline::seconds() const {
 
 // ---- Pixels -------------------------------------------------------------------------------------
 
-void Pipeline::decode() {
-  const StageTimer timer(seconds_, "decode");
-  const int height = light_field_.height, views = light_field_.num_views();
-  const std::size_t width = light_field_.width;
-  const std::size_t value_bytes = light_field_.pixels->bit_depth() / 8;
-  const std::size_t line = width * 3;
-  RowStore pixels(height, views * line * value_bytes, plan_.work_folder), shown;
-  if (light_field_.pixels->has_mask()) shown = RowStore(height, views * width, plan_.work_folder);
-
-  control_.progress("decode", 0, views);
-  const auto decode_view = [&](int view) {
-    Image<std::uint16_t> picture = read_view(light_field_, view);
-    light_field_.pixels->let_go(view);
-    if (const auto mask = take_mask(picture))
-      for (int v = 0; v < height; ++v) shown.write(v, view * width, width, mask->row(v));
-    std::vector<std::uint8_t> bytes(line);
-    for (int v = 0; v < height; ++v) {
-      const void* row = picture.row(v);
-      if (value_bytes == 1) {
-        std::copy(picture.row(v), picture.row(v) + line, bytes.begin());
-        row = bytes.data();
-      }
-      pixels.write(v, view * line * value_bytes, line * value_bytes, row);
-    }
-  };
-  parallel_for(
-      views, decode_view, [&](int done) { control_.progress("decode", done, views); },
-      plan_.decoders);
-  levels_[0].pixels = LevelRows(workspace_, std::move(pixels), height, views, plan_.place);
-  if (!shown.empty()) shown_ = LevelRows(workspace_, std::move(shown), height, views, plan_.place);
-}
-
-void Pipeline::begin_level(int level) {
-  const LevelShape& shape = plan_.levels[level].shape;
-  const std::size_t views = light_field_.num_views(), active = active_.size(), width = shape.width;
-  if (level == 0) {
-    levels_.emplace_back().shape = shape;
-    decode();
+void Pipeline::begin_level() {
+  const int views = light_field_.num_views();
+  const std::size_t active = active_.size(), width = plan_.levels[level_].shape.width;
+  if (level_ == 0) {
+    levels_.emplace_back().shape = plan_.levels[0].shape;
+    levels_[0].pixels =
+        LevelRows(workspace_, std::move(pictures_.pixels), rows().pixels, views, plan_.place);
+    // Coarser levels look at rows of it that are farther away.
+    if (pictures_.shown)
+      shown_ = LevelRows(workspace_, std::move(pictures_.shown), {0, light_field_.height}, views,
+                         plan_.place);
   }
-  LevelState& state = levels_[level];
-  state.estimates = make_rows(shape.height, active, width * sizeof(PackedEstimate));
+  LevelState& state = levels_[level_];
+  state.estimates = make_rows(rows().todo, active, width * sizeof(PackedEstimate));
   if (options_.propagation.finished_lead > 0 && active > 1)
-    state.bars = make_rows(shape.height, active, width * sizeof(float));
+    state.bars = make_rows(rows().todo, active, width * sizeof(float));
   if (options_.edge.threshold >= 0 && !is_last_level())
-    state.mask = make_rows(shape.height, active, width);
+    state.mask = make_rows(rows().todo, active, width);
   if (!is_last_level()) {
     LevelState next;
-    next.shape = plan_.levels[level + 1].shape;
-    next.pixels = make_rows(next.shape.height, views, 3 * next.shape.width * sizeof(float));
-    next.search = make_rows(next.shape.height, active, next.shape.width * sizeof(Search));
+    next.shape = plan_.levels[level_ + 1].shape;
+    const PartitionRows& next_rows = rows_of(level_ + 1);
+    next.pixels = make_rows(next_rows.pixels, views, 3 * next.shape.width * sizeof(float));
+    next.search = make_rows(next_rows.todo, active, next.shape.width * sizeof(Search));
     levels_.push_back(std::move(next));
   }
-  workspace_.begin_level(shape);
+  workspace_.begin_level(shape());
   loaded_sweep_ = loaded_rows_ = {};
   loaded_views_.clear();
   make_maps();
@@ -159,11 +138,11 @@ void Pipeline::make_maps() {
     maps.means = workspace_.make_map<float>(width, {0, all.size() * workspace_.channels()});
 }
 
-std::vector<RowRange> Pipeline::bands() const {
+std::vector<RowRange> Pipeline::bands(RowRange rows) const {
   const LevelPlan& plan = plan_.levels[level_];
   std::vector<RowRange> bands;
-  for (int v = 0; v < plan.shape.height; v += plan.band_rows)
-    bands.push_back({v, std::min(v + plan.band_rows, plan.shape.height)});
+  for (int v = rows.begin; v < rows.end; v += plan.band_rows)
+    bands.push_back({v, std::min(v + plan.band_rows, rows.end)});
   return bands;
 }
 
@@ -177,18 +156,19 @@ RowRange Pipeline::rows_needed(int view, RowRange rows) const {
 
 void Pipeline::load_sweep(int view, RowRange rows, const std::vector<int>& done) {
   const LevelPlan& plan = plan_.levels[level_];
-  const int height = plan.shape.height;
-  int first = height;
-  for (const int row : done)
-    if (row < height) first = std::min(first, row);
-  const RowRange wanted = plan.window_rows > 0
-                              ? RowRange{first, std::min(done.front() + plan.strip_rows, height)}
-                              : rows;
+  const int height = plan.shape.height, last = stage_rows_.front().end;
+  int first = last;
+  for (std::size_t i = 0; i < done.size(); ++i)
+    if (done[i] < stage_rows_[i].end) first = std::min(first, done[i]);
+  const RowRange wanted =
+      plan.window_rows > 0
+          ? RowRange{first, std::max(std::min(done.front() + plan.strip_rows, last), rows.end)}
+          : rows;
   if (loaded_sweep_.size() > 0 && wanted.begin >= loaded_sweep_.begin &&
       wanted.end <= loaded_sweep_.end && partners_[view] == loaded_views_)
     return;
   const RowRange window{wanted.begin,
-                        std::max(wanted.end, std::min(first + plan.window_rows, height))};
+                        std::max(wanted.end, std::min(first + plan.window_rows, last))};
   load_rows(partners_[view], rows_needed(view, grown(window, plan.halo, height)), true);
   loaded_sweep_ = window;
   if (sees_means_) workspace_.replace_reference(of_view_.means);
@@ -204,7 +184,9 @@ ShownRows Pipeline::open_shown(RowRange rows, const std::vector<int>& views, std
 void Pipeline::load_rows(const std::vector<int>& views, RowRange rows, bool masked) {
   control_.throw_if_cancelled();
   masked = masked && !shown_.empty();
-  if (rows == loaded_rows_ && views == loaded_views_ && masked == loaded_masked_) return;
+  if (rows.begin >= loaded_rows_.begin && rows.end <= loaded_rows_.end && views == loaded_views_ &&
+      masked == loaded_masked_)
+    return;
   workspace_.begin_stage("load");
   const StageTimer timer(seconds_, "load");
   loaded_sweep_ = {};
@@ -233,17 +215,20 @@ std::vector<std::vector<int>> Pipeline::view_groups() const {
 
 void Pipeline::find_edges_and_downsample() {
   LevelState& state = levels_[level_];
+  const std::vector<RowRange> all = bands(rows().todo);
   // One band serves the views too, so it is loaded in any case.
-  if (state.mask.empty() && is_last_level() && bands().size() > 1) return;
-  for (const RowRange band : bands())
+  if (state.mask.empty() && is_last_level() && all.size() > 1) return;
+  for (const RowRange band : all)
     for (const std::vector<int>& group : view_groups()) {
-      RowRange rows = grown(band, plan_.levels[level_].halo, shape().height);
+      RowRange around = grown(band, plan_.levels[level_].halo, shape().height);
       // All views in one group: what is loaded serves the rays of the first view too.
-      if (group.size() == light_field_.views.size()) rows = rows_needed(active_.front(), rows);
-      load_rows(group, rows, false);
+      if (group.size() == light_field_.views.size()) around = rows_needed(active_.front(), around);
+      load_rows(group, around, false);
       if (!state.mask.empty()) find_edges(group, band);
       if (!is_last_level()) downsample(group, band);
     }
+  if (!is_last_level())
+    bring_rows(levels_[level_ + 1].pixels, level_ + 1, rows_of(level_ + 1).pixels);
 }
 
 void Pipeline::find_edges(const std::vector<int>& views, RowRange band) {
@@ -269,8 +254,10 @@ void Pipeline::find_edges(const std::vector<int>& views, RowRange band) {
 }
 
 void Pipeline::downsample(const std::vector<int>& views, RowRange band) {
-  const RowRange small{(band.begin + 1) / 2, (band.end + 1) / 2};
-  if (small.size() == 0) return;
+  const RowRange own = rows_of(level_ + 1).own;
+  const RowRange small{std::max((band.begin + 1) / 2, own.begin),
+                       std::min((band.end + 1) / 2, own.end)};
+  if (small.size() <= 0) return;
   workspace_.begin_stage("downsample");
   LevelRows& next = levels_[level_ + 1].pixels;
   std::vector<int> at;
@@ -283,16 +270,17 @@ void Pipeline::coarsen() {
   workspace_.begin_stage("bounds");
   LevelState& fine = levels_[level_];
   LevelState& coarse = levels_[level_ + 1];
+  const RowRange own = rows_of(level_ + 1).own;
   // Rows that are brought to the device at once, where they are not there already.
   constexpr std::size_t kBytesAtOnce = 64 << 20;
   const std::size_t row_bytes =
       active_.size() * fine.shape.width * (2 * sizeof(PackedEstimate) + 3 * sizeof(Search));
   const int rows_at_once = fine.estimates.on_device()
-                               ? coarse.shape.height
+                               ? own.size()
                                : int(std::max<std::size_t>(kBytesAtOnce / row_bytes, 1));
-  for (int v = 0; v < coarse.shape.height; v += rows_at_once) {
+  for (int v = own.begin; v < own.end; v += rows_at_once) {
     control_.throw_if_cancelled();
-    const RowRange rows{v, std::min(v + rows_at_once, coarse.shape.height)};
+    const RowRange rows{v, std::min(v + rows_at_once, own.end)};
     const RowRange fine_rows{2 * rows.begin, std::min(2 * rows.end, fine.shape.height)};
     const RowsOnDevice estimates = fine.estimates.open(fine_rows);
     const RowsOnDevice search = level_ > 0 ? fine.search.open(fine_rows) : RowsOnDevice();
@@ -301,26 +289,32 @@ void Pipeline::coarsen() {
       workspace_.coarsen_bounds(rows, {estimates, i}, {search, i}, {out, i});
     coarse.search.close(rows, out);
   }
+  bring_rows(coarse.search, level_ + 1, rows_of(level_ + 1).todo);
 }
 
 void Pipeline::keep_searches() {
   LevelRows& search = levels_[level_].search;
-  const std::size_t row_bytes = active_.size() * search.view_bytes();
-  LevelSearch kept{shape(), RowStore(shape().height, row_bytes, plan_.work_folder)};
-  std::vector<std::byte> row(row_bytes);
-  for (int v = 0; v < shape().height; ++v) {
-    const RowsOnDevice rows = search.open({v, v + 1});
-    workspace_.read(*rows.memory, row, std::size_t(v - rows.begin) * row_bytes);
-    kept.rows.write(v, 0, row_bytes, row.data());
-  }
-  searches_.push_back(std::move(kept));
+  std::vector<std::byte> row(search.row_bytes());
+  partition_->in_turn([&] {
+    if (partition_->index() == 0)
+      result_.searches.push_back(
+          {shape(), RowStore(shape().height, row.size(), plan_.work_folder)});
+    for (int v = rows().own.begin; v < rows().own.end; ++v) {
+      search.read({v, v + 1}, row.data());
+      result_.searches.back().rows.write(v, 0, row.size(), row.data());
+    }
+  });
 }
 
 void Pipeline::finish() {
   workspace_.begin_stage("fill");
   of_view_ = {};
   const LevelShape& finest = levels_.front().shape;
-  maps_ = FinishedMaps(int(active_.size()), finest.width, finest.height, plan_.work_folder);
+  partition_->in_turn([&] {
+    if (result_.maps.empty())
+      result_.maps =
+          FinishedMaps(int(active_.size()), finest.width, finest.height, plan_.work_folder);
+  });
   std::vector<ViewMaps> filled;
   for (const LevelState& state : levels_) {
     const int width = state.shape.width;
@@ -329,27 +323,30 @@ void Pipeline::finish() {
                       workspace_.make_map<float>(width, all),
                       workspace_.make_map<std::int8_t>(width, all)});
   }
-  StripMap<float> disparity(finest.width, finest.rows()), confidence = disparity;
-  StripMap<std::int8_t> decided(finest.width, finest.rows());
+  const RowRange own = rows_of(0).own;
+  StripMap<float> disparity(finest.width, own), confidence = disparity;
+  StripMap<std::int8_t> decided(finest.width, own);
   const FinishSteps finish_steps(workspace_);
   const auto bytes_of = [&](auto& map) {
-    return std::as_writable_bytes(std::span(map.padded_row(0), map.pitch() * finest.rows().size()));
+    return std::as_writable_bytes(std::span(map.padded_row(own.begin), map.pitch() * own.size()));
   };
+  const std::size_t first = std::size_t(own.begin) * disparity.pitch();
   for (int i = 0; i < int(active_.size()); ++i) {
     control_.throw_if_cancelled();
     for (level_ = int(levels_.size()) - 1; level_ >= 0; --level_) {
       LevelState& state = levels_[level_];
-      const RowRange all = state.shape.rows();
+      const RowRange wanted = grown(rows().own, 1, state.shape.height);
       std::vector<int> at{0};
-      const ShownRows shown = level_ == 0 ? open_shown(all, {active_[i]}, at) : ShownRows{};
-      workspace_.fill_view(all, state.shape, state.estimates.open_view(all, i),
+      const ShownRows shown = level_ == 0 ? open_shown(wanted, {active_[i]}, at) : ShownRows{};
+      workspace_.fill_view(wanted, state.shape, state.estimates.open_view(wanted, i),
                            level_ + 1 < int(levels_.size()) ? filled[level_ + 1] : ViewMaps{},
                            shown, at.front(), filled[level_]);
     }
-    workspace_.read_later(filled[0].disparity.memory(), bytes_of(disparity));
-    workspace_.read_later(filled[0].confidence.memory(), bytes_of(confidence));
-    workspace_.read(filled[0].level.memory(), bytes_of(decided));
-    maps_.put(i, disparity, confidence, decided);
+    workspace_.read_later(filled[0].disparity.memory(), bytes_of(disparity), first * sizeof(float));
+    workspace_.read_later(filled[0].confidence.memory(), bytes_of(confidence),
+                          first * sizeof(float));
+    workspace_.read(filled[0].level.memory(), bytes_of(decided), first);
+    result_.maps.put(i, disparity, confidence, decided);
   }
   take_fresh_tuples();
   level_ = int(levels_.size());

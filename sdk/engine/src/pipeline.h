@@ -8,19 +8,17 @@
 #include <string>
 #include <vector>
 
-#include "finished_maps.h"
-#include "gigaray/reconstruct.h"
+#include "decoded_pictures.h"
 #include "gigaray/samplers/any_sampler.h"
 #include "level_rows.h"
-#include "memory_plan.h"
+#include "partition.h"
+#include "run.h"
 #include "sweep.h"
-#include "tuple_store.h"
-#include "workspace.h"
 
 namespace gigaray {
 
-/// What is kept of one level. Rows of all views (or of the active ones) side by side, so that a
-/// band is one sequential read.
+/// What is kept of one level: of the partition's rows. Rows of all views (or of the active ones)
+/// side by side, so that a band is one sequential read.
 struct LevelState {
   LevelShape shape;
   LevelRows pixels;     ///< [v][view]: level 0 [u][3] as decoded, else [3][u] floats
@@ -33,19 +31,18 @@ struct LevelState {
 /// Walks the levels from fine to coarse, in each the views from the centre outwards, in each the
 /// rows from top to bottom. The order of views and levels is fixed; a view is complete before the
 /// next one starts. That makes the result independent of how many rows are done at once. It decides
-/// what is done and looks at no pixel: those stay in the workspace.
+/// what is done and looks at no pixel: those stay in the workspace. Of several partitions each
+/// walks over its own rows; they go from view to view together (pipeline_exchange.cpp).
 class Pipeline {
  public:
-  Pipeline(const LightField& light_field, const DepthOptions& options,
-           const HypothesisRange& hypotheses, const MemoryPlan& plan, Workspace& workspace,
-           const RunControl& control);
+  /// rows: of every partition and level. result: for all partitions, and must outlive them.
+  Pipeline(const Run& run, const std::vector<std::vector<PartitionRows>>& rows,
+           DecodedPictures pictures, Workspace& workspace, RunResult& result);
 
-  void run();
+  /// Once.
+  void run(Partition& partition);
 
-  const std::vector<int>& active_views() const { return active_; }
-  FinishedMaps& maps() { return maps_; }
-  TupleStore& tuples() { return tuples_; }
-  std::vector<LevelSearch>& searches() { return searches_; }
+  TupleStore take_tuples() { return std::move(tuples_); }
   /// Of the host's work and the device's.
   std::map<std::string, double> seconds() const;
 
@@ -66,12 +63,12 @@ class Pipeline {
     Map<Radiance> radiance;
   };
 
-  void decode();
-  void begin_level(int level);
+  void begin_level();
   void make_maps();
   void find_edges_and_downsample();
   void find_edges(const std::vector<int>& views, RowRange band);
   void downsample(const std::vector<int>& views, RowRange band);
+  void unpack_estimates(int active_idx, const Map<float>& disparity, const Map<float>& confidence);
   bool find_todo(int active_idx);
   /// Opening by a diamond that reaches `radius` px: 1, a cross of 3 px, removes isolated pixels and
   /// keeps lines of two. In one of the scratch maps; of radius 1 in more_scratch.
@@ -93,6 +90,7 @@ class Pipeline {
   void see_means(bool see);
   void accept(int active_idx, RowRange rows, bool anything);
   void propagate(int active_idx, RowRange band);
+  void propagate_to_others(int active_idx);
   void clear_bars(int active_idx);
   void collect_tuples(int view);
   /// Those that were being read are there.
@@ -101,7 +99,30 @@ class Pipeline {
   void finish();
   void keep_searches();
 
-  std::vector<RowRange> bands() const;
+  /// Rows that this partition has to do with, of the level or of another one.
+  const PartitionRows& rows() const { return rows_of(level_); }
+  const PartitionRows& rows_of(int level) const { return rows_[partition_->index()][level]; }
+  /// Do rays of a partition's own rows arrive in those alone?
+  bool rays_stay() const { return rays_stay_[level_]; }
+  bool do_rays_stay(int level) const;
+  /// Rows of the reference view from where rays reach some rows.
+  RowRange rows_reaching(int view, RowRange reached) const;
+  /// Of some rows, those that other partitions have.
+  template <class T>
+  void bring_map(const Map<T>& map, RowRange wanted) {
+    const std::size_t bytes = std::size_t(map_pitch(map.width())) * sizeof(T);
+    partition_->bring(
+        {rows().own, wanted, bytes,
+         [&](RowRange part, std::byte* out) {
+           workspace_.read(map.memory(), {out, part.size() * bytes}, part.begin * bytes);
+         },
+         [&](RowRange part, const std::byte* in) {
+           workspace_.write(map.memory(), {in, part.size() * bytes}, part.begin * bytes);
+         }});
+  }
+  void bring_rows(LevelRows& rows, int level, RowRange wanted);
+
+  std::vector<RowRange> bands(RowRange rows) const;
   int count(const std::vector<int>& counts, RowRange rows) const;
   /// What the rays of the rows that a sweep is at need, and the rows around them; where memory does
   /// not hold that, of `rows`.
@@ -113,7 +134,7 @@ class Pipeline {
   /// The views in groups that a band holds, for steps that look along no ray.
   std::vector<std::vector<int>> view_groups() const;
   bool is_last_level() const { return level_ + 1 == int(plan_.levels.size()); }
-  LevelRows make_rows(int rows, std::size_t views, std::size_t view_bytes) {
+  LevelRows make_rows(RowRange rows, std::size_t views, std::size_t view_bytes) {
     return {workspace_, rows, int(views), view_bytes, plan_.place, plan_.work_folder};
   }
   const LevelShape& shape() const { return plan_.levels[level_].shape; }
@@ -135,18 +156,21 @@ class Pipeline {
   const DepthOptions& options_;
   const HypothesisRange hypotheses_;
   const MemoryPlan& plan_;
-  Workspace& workspace_;
   const RunControl& control_;
+  const std::vector<std::vector<PartitionRows>>& rows_;
+  DecodedPictures pictures_;
+  Workspace& workspace_;
+  RunResult& result_;
+  Partition* partition_ = nullptr;
   AnySampler sampler_;
 
-  std::vector<int> active_;  ///< views that get depth, from the centre outwards
+  const std::vector<int> active_;
   std::vector<LevelState> levels_;
-  FinishedMaps maps_;
   TupleStore tuples_;
-  std::vector<LevelSearch> searches_;
   std::map<std::string, double> seconds_;  ///< of the host
 
   LevelRows shown_;  ///< level 0 [v][view][u]: 0 where a pixel shows nothing; empty: all do
+  std::vector<bool> rays_stay_;             ///< by level
   std::vector<std::vector<int>> partners_;  ///< of every view
 
   int level_ = 0;
@@ -156,9 +180,10 @@ class Pipeline {
   RowRange loaded_rows_;
   std::vector<int> loaded_views_;
   bool loaded_masked_ = false;
-  bool sees_means_ = false;         ///< means stand for the pixels of the view that is worked on
-  std::vector<SweepStage> stages_;  ///< of the view that is worked on
-  std::vector<int> progress_of_stages_;  ///< rows that each of them has done
+  bool sees_means_ = false;           ///< means stand for the pixels of the view that is worked on
+  std::vector<SweepStage> stages_;    ///< of the view that is worked on
+  std::vector<RowRange> stage_rows_;  ///< that each of them does
+  std::vector<int> progress_of_stages_;  ///< where each of them is
   RowRange first_scores_;                ///< rows that the scores of the first look are held of
   std::array<std::shared_ptr<Memory>, 4> strips_;
   std::shared_ptr<Memory> tuple_memory_;

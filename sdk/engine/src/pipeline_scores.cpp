@@ -28,21 +28,26 @@ bool sees_means(SweepStep step) {
 // view are loaded once, whatever the number of strips. All rows in one strip: each stage does all
 // of them in turn.
 void Pipeline::sweep(int active_idx) {
-  const int view = active_[active_idx], height = shape().height;
+  const int view = active_[active_idx];
   const LevelPlan& plan = plan_.levels[level_];
   stages_ = sweep_stages(options_, level_, int(partners_[view].size()));
-  progress_of_stages_.assign(stages_.size(), 0);
+  stage_rows_ = rows_of_stages(stages_, rows().own, shape().height);
+  progress_of_stages_.clear();
+  for (const RowRange rows : stage_rows_) progress_of_stages_.push_back(rows.begin);
   std::vector<int>& done = progress_of_stages_;
   grow_todo();
   workspace_.hold_scores(kFirstScores, {});
   workspace_.hold_scores(kNewScores, {});
   first_scores_ = {};
-  while (done.back() < height) {
+  while (done.back() < stage_rows_.back().end) {
     for (std::size_t i = 0; i < stages_.size(); ++i) {
       const SweepStage& stage = stages_[i];
-      const int ready = i == 0 ? std::min(done[0] + plan.strip_rows, height) : done[i - 1];
-      const int end =
-          ready == height ? height : (ready - stage.reach) / stage.multiple * stage.multiple;
+      const int last = stage_rows_[i].end;
+      int end = std::min(done[0] + plan.strip_rows, last);
+      if (i > 0)
+        end = done[i - 1] == stage_rows_[i - 1].end
+                  ? last
+                  : std::min((done[i - 1] - stage.reach) / stage.multiple * stage.multiple, last);
       if (end <= done[i]) continue;
       control_.throw_if_cancelled();
       see_means(options_.score.ray_mean && sees_means(stage.step));
@@ -50,16 +55,18 @@ void Pipeline::sweep(int active_idx) {
       done[i] = end;
       report_sweep(active_idx);
     }
-    if (done.back() < height) workspace_.keep_pace();
+    if (done.back() < stage_rows_.back().end) workspace_.keep_pace();
   }
   see_means(false);
 }
 
 void Pipeline::report_sweep(int active_idx) {
-  double done = 0;
-  for (const int rows : progress_of_stages_) done += rows;
-  done /= double(progress_of_stages_.size()) * shape().height;
-  report((active_idx + done) / double(active_.size()));
+  double done = 0, all = 0;
+  for (std::size_t i = 0; i < stages_.size(); ++i) {
+    done += progress_of_stages_[i] - stage_rows_[i].begin;
+    all += stage_rows_[i].size();
+  }
+  report((active_idx + done / all) / double(active_.size()));
 }
 
 void Pipeline::run_stage(int active_idx, SweepStep step, RowRange rows,
@@ -113,8 +120,8 @@ void Pipeline::grow_todo() {
   workspace_.begin_stage("select");
   const int radius = options_.support.radius;
   if (radius > 0)
-    workspace_.grow_todo(shape().rows(), radius, of_view_.todo, of_view_.bounds,
-                         of_view_.grown_todo, of_view_.grown_bounds);
+    workspace_.grow_todo(rows().todo, radius, of_view_.todo, of_view_.bounds, of_view_.grown_todo,
+                         of_view_.grown_bounds);
 }
 
 // Scores of rows that are held and not there yet, in pieces.
@@ -139,7 +146,8 @@ void Pipeline::score(int view, RowRange rows, ScoreViews views, const Map<std::u
 void Pipeline::score_anew(int view, RowRange rows, ScoreViews views, const Map<std::uint8_t>& todo,
                           const Map<HypothesisBounds>& bounds) {
   // In one strip nothing asks for the scores of the first look any more.
-  const int volume = plan_.levels[level_].strip_rows >= shape().height ? kFirstScores : kNewScores;
+  const bool in_one_strip = plan_.levels[level_].strip_rows >= stage_rows_.front().size();
+  const int volume = in_one_strip ? kFirstScores : kNewScores;
   workspace_.hold_scores(volume, {});
   workspace_.hold_scores(volume, rows);
   score(view, rows, views, todo, bounds);

@@ -14,18 +14,26 @@ int Pipeline::count(const std::vector<int>& counts, RowRange rows) const {
 }
 
 const Map<std::uint8_t>& Pipeline::opened(int radius, const Map<std::uint8_t>& mask) {
-  const RowRange all = shape().rows();
   const Map<std::uint8_t>* from = &mask;
   const Map<std::uint8_t>* to = &of_view_.scratch;
   for (int pass = 0; pass < 2 * radius; ++pass) {
     if (pass < radius)
-      workspace_.erode(all, *from, *to);
+      workspace_.erode(rows().todo, *from, *to);
     else
-      workspace_.dilate(all, *from, *to);
+      workspace_.dilate(rows().todo, *from, *to);
     from = to;
     to = from == &of_view_.scratch ? &of_view_.more_scratch : &of_view_.scratch;
   }
   return *from;
+}
+
+void Pipeline::unpack_estimates(int active_idx, const Map<float>& disparity,
+                                const Map<float>& confidence) {
+  LevelState& state = levels_[level_];
+  workspace_.unpack_estimates(rows().own, state.estimates.open_view(rows().own, active_idx),
+                              disparity, confidence);
+  bring_map(disparity, rows().unpacked);
+  bring_map(confidence, rows().unpacked);
 }
 
 bool Pipeline::find_todo(int active_idx) {
@@ -33,20 +41,20 @@ bool Pipeline::find_todo(int active_idx) {
   workspace_.begin_stage("select");
   LevelState& state = levels_[level_];
   Maps& maps = of_view_;
-  const RowRange all = shape().rows();
-  const ViewRows estimates = state.estimates.open_view(all, active_idx);
+  const RowRange own = rows().own, all = rows().todo;
   const PropagationOptions& propagation = options_.propagation;
   bool cracked = level_ == 0 && active_idx > 0 && propagation.crack_width > 0;
   if (cracked) {
     constexpr float kSameSurface = 3;  // hypotheses
-    workspace_.unpack_estimates(all, estimates, maps.accepted, maps.more_confidence);
+    unpack_estimates(active_idx, maps.accepted, maps.more_confidence);
+    const ViewRows estimates = state.estimates.open_view(all, active_idx);
     workspace_.close_cracks(all, propagation.crack_width, kSameSurface * float(hypotheses_.step()),
                             maps.accepted, maps.more_confidence, maps.disparity, maps.confidence,
                             estimates);
     state.estimates.close(all, active_idx, estimates);
-    cracked = count(workspace_.count_estimates(maps.disparity), all) > 0;
+    cracked = partition_->sum(count(workspace_.count_estimates(maps.disparity), own)) > 0;
   } else {
-    workspace_.unpack_estimates(all, estimates, maps.disparity, maps.confidence);
+    unpack_estimates(active_idx, maps.disparity, maps.confidence);
   }
 
   std::vector<int> at{0};
@@ -64,7 +72,7 @@ bool Pipeline::find_todo(int active_idx) {
     std::swap(maps.todo, maps.more_scratch);
   }
   todo_counts_ = workspace_.count_rows(maps.todo);
-  return count(todo_counts_, all) > 0;
+  return partition_->sum(count(todo_counts_, own)) > 0;
 }
 
 void Pipeline::accept(int active_idx, RowRange rows, bool anything) {
@@ -81,14 +89,15 @@ void Pipeline::accept(int active_idx, RowRange rows, bool anything) {
   if (!anything) return;
   workspace_.begin_stage("radiance");
   workspace_.mean_radiance(view, rows, accepted, maps.radiance);
-  propagate(active_idx, rows);
+  if (rays_stay()) propagate(active_idx, rows);
 }
 
 void Pipeline::propagate(int active_idx, RowRange band) {
   workspace_.begin_stage("propagate");
   LevelState& state = levels_[level_];
   const int view = active_[active_idx];
-  const RowRange reached = rows_needed(view, band);
+  const RowRange reached = overlap(rows_needed(view, band), rows().own);
+  if (reached.size() == 0) return;
   const int finished = state.bars.empty() ? 0 : active_idx;
   const RowsOnDevice estimates = state.estimates.open(reached);
   RowsOnDevice bars;
@@ -106,9 +115,10 @@ void Pipeline::clear_bars(int active_idx) {
   LevelState& state = levels_[level_];
   const int view = active_[active_idx];
   if (state.bars.empty() || active_idx == 0) return;
-  for (const RowRange band : bands()) {
-    if (count(todo_counts_, band) == 0) continue;
-    const RowRange reached = rows_needed(view, band);
+  for (const RowRange band : bands(rows_reaching(view, rows().own))) {
+    if (rays_stay() && count(todo_counts_, band) == 0) continue;
+    const RowRange reached = overlap(rows_needed(view, band), rows().own);
+    if (reached.size() == 0) continue;
     const RowsOnDevice bars = state.bars.open(reached);
     workspace_.clear_bars(view, band, of_view_.accepted, reached, active_idx, bars);
     state.bars.close(reached, bars);
@@ -118,10 +128,12 @@ void Pipeline::clear_bars(int active_idx) {
 void Pipeline::collect_tuples(int view) {
   workspace_.begin_stage("tuples");
   constexpr int kMostAtOnce = 1 << 18;
-  const int height = shape().height;
-  for (RowRange rows{0, 0}; rows.begin < height; rows.begin = rows.end) {
+  take_fresh_tuples();
+  tuples_.begin_view();
+  const RowRange own = this->rows().own;
+  for (RowRange rows{own.begin, own.begin}; rows.begin < own.end; rows.begin = rows.end) {
     int most = 0;
-    while (rows.end < height && (most == 0 || most + todo_counts_[rows.end] <= kMostAtOnce))
+    while (rows.end < own.end && (most == 0 || most + todo_counts_[rows.end] <= kMostAtOnce))
       most += todo_counts_[rows.end++];
     if (most == 0) continue;
     const std::size_t bytes = most * sizeof(RayTuple);

@@ -17,8 +17,8 @@
 #include "make_workspace.h"
 #include "opencl/cache_folder.h"
 #include "opencl/ready_kernels.h"
-#include "pipeline.h"
 #include "reconstruction_impl.h"
+#include "run.h"
 #include "settle_direction.h"
 #include "stage_timer.h"
 
@@ -157,11 +157,11 @@ void adapt_to_pictures(Prepared& run, const RunControl& control) {
     run.light_field = smoothed(run.light_field, run.options.score.smoothing);
 }
 
-/// What the kernels of a run depend on, without asking a device. device: as it is stated.
-std::string kernel_job(const Prepared& run, const std::string& device) {
+/// What the kernels of a run depend on, without asking a device. devices: as they are stated.
+std::string kernel_job(const Prepared& run, const std::string& devices) {
   const DepthOptions& o = run.options;
   std::ostringstream text;
-  text << device << '|' << to_string(run.light_field.kind) << ' '
+  text << devices << '|' << to_string(run.light_field.kind) << ' '
        << run.light_field.pixels->bit_depth() << ' ' << run.light_field.pixels->has_mask() << ' '
        << o.edge.threshold << ' ' << o.edge.squared << ' ' << o.score.linear_rgb << ' '
        << o.score.cubic << ' ' << o.score.gradient << ' ' << o.score.ray_mean << ' '
@@ -171,36 +171,47 @@ std::string kernel_job(const Prepared& run, const std::string& device) {
   return text.str();
 }
 
-DeviceLimits limits_of(const DeviceInfo& info) {
-  return {double(info.global_memory), double(info.max_allocation), info.shares_host_memory};
+/// Of devices that share a run: the least that one of them has.
+DeviceLimits limits_of(const std::vector<DeviceInfo>& devices) {
+  const DeviceInfo& first = devices.front();
+  DeviceLimits limits{double(first.global_memory), double(first.max_allocation),
+                      first.shares_host_memory, int(devices.size())};
+  for (const DeviceInfo& device : devices) {
+    if (device.shares_host_memory != first.shares_host_memory)
+      throw Error(ErrorCode::kDevice, "devices " + first.name + " and " + device.name +
+                                          " can't share a run: one of them has memory of its own");
+    limits.memory = std::min(limits.memory, double(device.global_memory));
+    limits.largest_buffer = std::min(limits.largest_buffer, double(device.max_allocation));
+  }
+  return limits;
 }
 
-/// Of a device that is not open. Where there is none the run will say so, and a forecast is one for
-/// a usual one.
-DeviceLimits limits_of(const std::string& device) {
+/// Of devices that are not open. Where there are none the run will say so, and a forecast is one
+/// for a usual one.
+DeviceLimits limits_of(const std::string& selection) {
   try {
-    return limits_of(select_device(device));
+    return limits_of(select_devices(selection));
   } catch (const Error&) {
     return {};
   }
 }
 
-constexpr DeviceLimits kHost{0, std::numeric_limits<double>::infinity(), true};
+constexpr DeviceLimits kHost{0, std::numeric_limits<double>::infinity(), true, 1};
 
-/// The plan, with the compiler in the forecast where there is something to compile. device: as it
-/// is stated; none: the reference.
-MemoryPlan plan_run(const Prepared& run, const std::optional<std::string>& device,
+/// The plan, with the compiler in the forecast where there is something to compile. devices: as
+/// they are stated; none: the reference.
+MemoryPlan plan_run(const Prepared& run, const std::optional<std::string>& devices,
                     const DeviceLimits& limits) {
   MemoryPlan plan = plan_memory(run.light_field, run.options, run.hypotheses, limits);
-  if (!device || opencl::kernels_are_ready(kernel_job(run, *device))) {
+  if (!devices || opencl::kernels_are_ready(kernel_job(run, *devices))) {
     plan.forecast.memory_bytes -= plan.compiler_bytes;
     plan.forecast.memory_all_bytes -= plan.compiler_bytes;
   }
   return plan;
 }
 
-std::unique_ptr<Workspace> make_workspace(const Prepared& run,
-                                          const std::optional<Device>& device) {
+/// device: null: the reference.
+std::unique_ptr<Workspace> make_workspace(const Prepared& run, const Device* device) {
   const WorkspaceSetup setup{run.options, run.hypotheses, run.light_field.kind,
                              run.light_field.pixels->bit_depth()};
   return std::visit(
@@ -213,13 +224,18 @@ std::unique_ptr<Workspace> make_workspace(const Prepared& run,
 
 }  // namespace
 
-Estimator::Estimator(Device device) : device_(std::move(device)) {}
+Estimator::Estimator(Device device) : devices_{std::move(device)} {}
 
-Estimator Estimator::reference() { return Estimator(std::nullopt); }
+Estimator::Estimator(std::vector<Device> devices) : devices_(std::move(devices)) {
+  if (devices_.empty())
+    throw Error(ErrorCode::kInvalidArgument, "an estimator needs a device; there are none");
+}
+
+Estimator Estimator::reference() { return Estimator(Reference()); }
 
 Estimator Estimator::of(const BackendChoice& choice) {
   if (choice.backend == "reference") return reference();
-  if (choice.backend == "opencl") return Estimator(Device::open(choice.device));
+  if (choice.backend == "opencl") return Estimator(Device::open_each(choice.device));
   throw Error(ErrorCode::kInvalidArgument,
               "backend " + choice.backend + ": there are opencl and reference");
 }
@@ -237,7 +253,7 @@ Reconstruction Estimator::reconstruct(const LightField& light_field, const Depth
   auto impl = std::make_unique<Reconstruction::Impl>();
   LightField seen;
   std::string job;
-  std::unique_ptr<Workspace> workspace;
+  std::vector<std::unique_ptr<Workspace>> workspaces;
   {
     const StageTimer timer(impl->seconds, "prepare");
     check(light_field);
@@ -248,14 +264,20 @@ Reconstruction Estimator::reconstruct(const LightField& light_field, const Depth
     Prepared run = prepare(given, wanted, control);
     impl->light_field = std::move(given);
     impl->light_field.pixels = light_field.pixels;
-    if (device_) {
-      job = kernel_job(run, device_->selection());
-      impl->plan = plan_run(run, device_->selection(), limits_of(device_->info()));
+    if (devices_.empty()) {
+      impl->plan = plan_run(run, std::nullopt, kHost);
+    } else {
+      std::string selection;
+      std::vector<DeviceInfo> infos;
+      for (const Device& device : devices_) {
+        selection += (selection.empty() ? "" : ",") + device.selection();
+        infos.push_back(device.info());
+      }
+      job = kernel_job(run, selection);
+      impl->plan = plan_run(run, selection, limits_of(infos));
       if (!opencl::kernels_are_ready(job))
         control.message(std::string("compiling kernels for this device") +
                         (opencl::cache_folder() ? ", once" : ""));
-    } else {
-      impl->plan = plan_run(run, std::nullopt, kHost);
     }
     adapt_to_pictures(run, control);
     seen = run.light_field;
@@ -263,19 +285,22 @@ Reconstruction Estimator::reconstruct(const LightField& light_field, const Depth
     impl->hypotheses = run.hypotheses;
     impl->cameras = seen.cameras;
     impl->sampler = make_sampler(seen);
-    workspace = make_workspace(run, device_);
+    if (devices_.empty()) workspaces.push_back(make_workspace(run, nullptr));
+    for (const Device& device : devices_) workspaces.push_back(make_workspace(run, &device));
   }
-  impl->device = workspace->name() + ": " + workspace->description();
-  Pipeline pipeline(seen, impl->options, impl->hypotheses, impl->plan, *workspace, control);
-  pipeline.run();
-  if (device_) opencl::note_ready_kernels(job);
-  impl->maps = std::move(pipeline.maps());
-  impl->searches = std::move(pipeline.searches());
-  impl->active = pipeline.active_views();
+  for (const auto& workspace : workspaces)
+    impl->device += impl->device.empty() ? workspace->name() + ": " + workspace->description()
+                                         : "; " + workspace->description();
+  RunResult result =
+      run_pipeline({seen, impl->options, impl->hypotheses, impl->plan, control}, workspaces);
+  if (!devices_.empty()) opencl::note_ready_kernels(job);
+  impl->maps = std::move(result.maps);
+  impl->searches = std::move(result.searches);
+  impl->active = active_views(seen, impl->options);
   impl->views = impl->active;
   std::sort(impl->views.begin(), impl->views.end());
-  impl->tuples = std::move(pipeline.tuples());
-  impl->seconds.merge(pipeline.seconds());
+  impl->tuples = std::move(result.tuples);
+  impl->seconds.merge(result.seconds);
   return Reconstruction(std::move(impl));
 }
 
@@ -283,8 +308,8 @@ Forecast forecast(const LightField& light_field, const DepthOptions& options,
                   const BackendChoice& backend) {
   const Prepared run = prepare(light_field, options, RunControl{});
   if (backend.backend == "reference") return plan_run(run, std::nullopt, kHost).forecast;
-  const std::string device = opencl::stated_device(backend.device);
-  return plan_run(run, device, limits_of(device)).forecast;
+  const std::string devices = opencl::stated_device(backend.device);
+  return plan_run(run, devices, limits_of(devices)).forecast;
 }
 
 double least_memory_bytes(const LightField& light_field, const DepthOptions& options) {
@@ -316,7 +341,7 @@ ScoreCurve Estimator::probe(const LightField& light_field, const DepthOptions& o
   require_direction(given, wanted, control);
   Prepared run = prepare(given, wanted, control);
   adapt_to_pictures(run, control);
-  const auto workspace = make_workspace(run, device_);
+  const auto workspace = make_workspace(run, devices_.empty() ? nullptr : &devices_.front());
   const AnySampler sampler = make_sampler(run.light_field);
   const std::vector<int> partners =
       std::visit([&](const auto& s) { return s.partners(view_idx); }, sampler);

@@ -28,7 +28,7 @@ struct Reconstruction::Impl {
   std::vector<int> active;            ///< as processed
   FinishedMaps maps;                  ///< of the active views
   std::vector<LevelSearch> searches;  ///< with DepthOptions::keep_searches
-  TupleStore tuples{""};
+  RunTuples tuples;
   std::map<std::string, double> seconds;
 
   /// What a hypothesis of the engine is to the caller.

@@ -52,6 +52,19 @@ bool few_first(const DepthOptions& options, int partners) {
   return options.score.gradient && (options.score.ray_mean || partners > kManyViews);
 }
 
+std::vector<RowRange> rows_of_stages(const std::vector<SweepStage>& stages, RowRange own,
+                                     int height) {
+  std::vector<RowRange> rows(stages.size());
+  for (std::size_t i = stages.size(); i-- > 0;) {
+    const int multiple = stages[i].multiple;
+    RowRange wanted = own;
+    if (i + 1 < stages.size()) wanted = grown(rows[i + 1], stages[i + 1].reach, height);
+    rows[i] = {wanted.begin / multiple * multiple,
+               std::min((wanted.end + multiple - 1) / multiple * multiple, height)};
+  }
+  return rows;
+}
+
 int sweep_lag(const std::vector<SweepStage>& stages) {
   int lag = 0;
   for (const SweepStage& stage : stages) lag += stage.reach + stage.multiple - 1;

@@ -6,6 +6,7 @@
 
 #include "estimates.h"
 #include "gigaray/depth_options.h"
+#include "gigaray/image.h"
 
 namespace gigaray {
 
@@ -40,6 +41,10 @@ bool few_first(const DepthOptions& options, int partners);
 
 /// The steps of a view.
 std::vector<SweepStage> sweep_stages(const DepthOptions& options, int level, int partners);
+
+/// Rows that each stage does so that the last one can do `own`, in a level of so many rows.
+std::vector<RowRange> rows_of_stages(const std::vector<SweepStage>& stages, RowRange own,
+                                     int height);
 
 /// Most rows between the first and the last stage.
 int sweep_lag(const std::vector<SweepStage>& stages);

@@ -25,16 +25,32 @@ void TupleStore::append(const RayTuple& tuple) {
   recent_.clear();
 }
 
-void TupleStore::for_each(const std::function<void(const RayTuple&)>& visit) const {
+void TupleStore::for_each(int i, const std::function<void(const RayTuple&)>& visit) const {
+  const std::size_t end = i + 1 < num_views() ? begins_[i + 1] : size();
+  std::size_t at = begins_.at(i);
   std::vector<RayTuple> block(4096);
-  for (std::size_t done = 0; done < spilled_; done += block.size()) {
-    block.resize(std::min(spilled_ - done, block.size()));
-    file_.read(done * sizeof(RayTuple), block.size() * sizeof(RayTuple), block.data());
+  while (at < std::min(end, spilled_)) {
+    block.resize(std::min(std::min(end, spilled_) - at, block.size()));
+    file_.read(at * sizeof(RayTuple), block.size() * sizeof(RayTuple), block.data());
     for (const RayTuple& tuple : block) visit(tuple);
+    at += block.size();
   }
-  for (const std::vector<RayTuple>& block : full_)
-    for (const RayTuple& tuple : block) visit(tuple);
-  for (const RayTuple& tuple : recent_) visit(tuple);
+  for (; at < end; ++at) {
+    const std::size_t kept = at - spilled_;
+    visit(kept / kBlock < full_.size() ? full_[kept / kBlock][kept % kBlock]
+                                       : recent_[kept - full_.size() * kBlock]);
+  }
+}
+
+std::size_t RunTuples::size() const {
+  std::size_t size = 0;
+  for (const TupleStore& part : parts_) size += part.size();
+  return size;
+}
+
+void RunTuples::for_each(const std::function<void(const RayTuple&)>& visit) const {
+  for (int i = 0; !parts_.empty() && i < parts_.front().num_views(); ++i)
+    for (const TupleStore& part : parts_) part.for_each(i, visit);
 }
 
 }  // namespace gigaray

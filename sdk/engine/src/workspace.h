@@ -96,7 +96,8 @@ class Workspace {
   /// Waits for all steps before.
   virtual void read(const Memory& memory, std::span<std::byte> data, std::size_t offset = 0) = 0;
   /// Does not wait: what is read is there after the next read(), until when `data` must live.
-  virtual void read_later(const Memory& memory, std::span<std::byte> data) = 0;
+  virtual void read_later(const Memory& memory, std::span<std::byte> data,
+                          std::size_t offset = 0) = 0;
   /// Memory as the host sees it, until unmap(); no step may use it meanwhile. Waits. To fill it:
   /// what it had is lost.
   virtual std::span<std::byte> map(Memory& memory, bool to_fill) = 0;

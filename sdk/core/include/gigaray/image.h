@@ -81,4 +81,10 @@ inline RowRange grown(RowRange rows, int halo, int height) {
           rows.end + halo > height ? height : rows.end + halo};
 }
 
+/// The rows that are in both; of size 0 where there are none.
+inline RowRange overlap(RowRange a, RowRange b) {
+  const RowRange both{a.begin > b.begin ? a.begin : b.begin, a.end < b.end ? a.end : b.end};
+  return both.size() > 0 ? both : RowRange{};
+}
+
 }  // namespace gigaray

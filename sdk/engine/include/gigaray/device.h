@@ -52,6 +52,11 @@ std::vector<DeviceInfo> list_devices();
 /// else the first device. Throws Error(kDevice) when there is none, listing what there is.
 DeviceInfo select_device(const std::string& selection = "");
 
+/// The devices that share a run: selections with commas between them ("0,1"), each another device,
+/// or "all": every device of the type that an empty selection would take. An empty list takes
+/// GIGARAY_DEVICE. Throws Error(kDevice).
+std::vector<DeviceInfo> select_devices(const std::string& selections = "");
+
 /// An open OpenCL device: its context, and the kernels that were built for it, which stay until the
 /// last copy is gone. Copies are cheap and are the same device. Thread-safe: any number of
 /// estimators may work on a device at once, each in a command queue of its own.
@@ -60,6 +65,9 @@ class Device {
   /// selection: see select_device(). Opening again is allowed, but shares nothing. Throws
   /// Error(kDevice).
   static Device open(const std::string& selection = "");
+
+  /// selections: see select_devices(). Throws Error(kDevice).
+  static std::vector<Device> open_each(const std::string& selections = "");
 
   /// The engine's own way. Not null.
   explicit Device(std::shared_ptr<const opencl::Device> opened);

@@ -2,7 +2,7 @@
 // Copyright (c) 2026 The Gigaray authors
 #pragma once
 
-#include <optional>
+#include <vector>
 
 #include "gigaray/device.h"
 #include "gigaray/reconstruct.h"
@@ -23,26 +23,33 @@ class Estimator {
   /// With OpenCL kernels on a device. The default throws what Device::open() throws.
   explicit Estimator(Device device = Device::open());
 
+  /// On several devices at once: each has a part of the rows of every view, as many as the others,
+  /// so they should be alike. All or none must have memory of their own. The same device may be
+  /// there more than once. Throws Error(kInvalidArgument) when there is none.
+  explicit Estimator(std::vector<Device> devices);
+
   /// With the plain loops that the kernels are checked against: slow, needs no device.
   static Estimator reference();
 
-  /// The device and backend of a choice. Throws Error: kInvalidArgument (no such backend), kDevice.
+  /// The devices and backend of a choice. Throws Error: kInvalidArgument (no such backend),
+  /// kDevice.
   static Estimator of(const BackendChoice& choice);
 
   /// As gigaray::reconstruct(), and throws what that throws.
   Reconstruction reconstruct(const LightField& light_field, const DepthOptions& options,
                              const RunControl& control) const;
 
-  /// As gigaray::probe(), and throws what that throws.
+  /// As gigaray::probe(), and throws what that throws. On the first device.
   ScoreCurve probe(const LightField& light_field, const DepthOptions& options, int view_idx, int u,
                    int v, const RunControl& control) const;
 
-  const std::optional<Device>& device() const { return device_; }  ///< Empty: the reference.
+  const std::vector<Device>& devices() const { return devices_; }  ///< Empty: the reference.
 
  private:
-  explicit Estimator(std::nullopt_t) {}
+  struct Reference {};
+  explicit Estimator(Reference) {}
 
-  std::optional<Device> device_;
+  std::vector<Device> devices_;
 };
 
 }  // namespace gigaray
