@@ -20,7 +20,7 @@ class HostSteps {
 
   void begin_level(const LevelShape& shape) {
     shape_ = shape;
-    workspace_->begin_level(shape);
+    workspace_->begin_level(shape, 0);
   }
   void load_band(RowRange rows, const std::vector<int>& views,
                  const std::vector<std::uint8_t>& data, BandEncoding encoding,
@@ -33,7 +33,7 @@ class HostSteps {
       const std::size_t pixels = std::size_t(rows.size()) * views.size() * shape_.width;
       source.shown = {up(std::span(mask, pixels), rows.begin, int(views.size())), shape_.width, 0};
     }
-    workspace_->load_band(rows, views, source);
+    workspace_->load_band(rows, rows, views, source);
   }
 
   /// A map of the whole view with what the host has of it.

@@ -9,9 +9,11 @@
 
 #include "engine/cache_fixture.h"
 #include "engine/planned_run.h"
+#include "src/band_ring.h"
 #include "support/analytic_field.h"
 #include "support/depth_result.h"
 #include "support/memory_limits.h"
+#include "support/posed_field.h"
 
 namespace gigaray::testing_support {
 namespace {
@@ -127,6 +129,74 @@ TEST(PipelineBandHeight, OpenClGivesTheSameBitsInAnyBandsAndStrips) {
     expect_bands_alike("opencl", scene(row_of_views(4), 45, 37).light_field, options);
     expect_bands_alike("opencl", scene(irregular_grid(), 31, 33).light_field, options);
   }
+}
+
+/// Spots in every picture that show nothing, each two rows high: a kept row beside a masked one is
+/// the last of some band.
+class SpottedPictures : public PixelSource {
+ public:
+  explicit SpottedPictures(std::shared_ptr<const PixelSource> pixels)
+      : pixels_(std::move(pixels)) {}
+  int bit_depth() const override { return pixels_->bit_depth(); }
+  bool has_mask() const override { return true; }
+  Image<std::uint16_t> read(int view_idx) const override {
+    const Image<std::uint16_t> whole = pixels_->read(view_idx);
+    Image<std::uint16_t> picture(whole.width(), whole.height(), 4);
+    for (int v = 0; v < whole.height(); ++v)
+      for (int u = 0; u < whole.width(); ++u)
+        for (int c = 0; c < picture.channels(); ++c)
+          picture(u, v, c) = u % 11 < 3 && v % 5 < 2 ? 0 : c == 3 ? 255 : whole(u, v, c);
+    return picture;
+  }
+
+ private:
+  std::shared_ptr<const PixelSource> pixels_;
+};
+
+TEST(PipelineBandHeight, MaskedPixelsAreTheSameInAnyBands) {
+  for (const char* preset : {"paper", "auto"}) {
+    DepthOptions options = small_job(preset);
+    options.support.scanline = false;  // smaller bands
+    LightField light_field = scene(irregular_grid(), 31, 53).light_field;
+    light_field.pixels = std::make_shared<SpottedPictures>(light_field.pixels);
+    expect_bands_alike("opencl", light_field, options);
+    options.hypotheses = 13;
+    light_field = scene(row_of_views(3), 27, 31).light_field;
+    light_field.pixels = std::make_shared<SpottedPictures>(light_field.pixels);
+    expect_bands_alike("reference", light_field, options);
+  }
+}
+
+TEST(PipelineBandHeight, PosedViewsAreTheSameInAnyBands) {
+  const std::vector<View> grid = grid_of_views(2, 2);
+  LightField light_field = posed_field(cameras_around(grid, 45, 91), grid).light_field;
+  for (const char* preset : {"paper", "auto"}) {
+    DepthOptions options = small_job(preset);
+    options.disparity = DisparityRange{0, 1};
+    options.support.scanline = false;  // smaller bands
+    expect_bands_alike("opencl", light_field, options);
+  }
+  light_field.pixels = std::make_shared<SpottedPictures>(light_field.pixels);
+  DepthOptions options = small_job("auto");
+  options.disparity = DisparityRange{0, 1};
+  expect_bands_alike("opencl", light_field, options);
+}
+
+TEST(BandRing, LoadsWhatComesAndKeepsTheRest) {
+  BandRing ring{{}, 50};
+  EXPECT_EQ(ring.missing({0, 30}), (RowRange{0, 30}));
+  EXPECT_EQ(ring.load({0, 30}, {0, 30}), (RowRange{0, 30}));
+  EXPECT_EQ(ring.missing({5, 30}).size(), 0);
+  // The last two rows anew, gradients of the last one.
+  EXPECT_EQ(ring.missing({5, 45}), (RowRange{28, 45}));
+  EXPECT_EQ(ring.load({5, 45}, {28, 45}), (RowRange{29, 45}));
+  EXPECT_EQ(ring.rows, (RowRange{0, 45})) << "there is room for what is asked for no more";
+  ring.load({40, 70}, ring.missing({40, 70}));
+  EXPECT_EQ(ring.rows, (RowRange{20, 70}));
+  for (const RowRange anew : {RowRange{69, 90}, RowRange{19, 60}, RowRange{25, 76}})
+    EXPECT_EQ(ring.missing(anew), anew) << anew.begin;
+  ring.load({30, 90}, {30, 90});
+  EXPECT_EQ(ring.slots, 60);
 }
 
 }  // namespace

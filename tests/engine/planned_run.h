@@ -56,6 +56,9 @@ struct PlannedRun {
       level.window_rows = cut.keeps_scores ? level.band_rows : 0;
       level.strip_rows = cut.least_strips ? least : level.band_rows;
       level.keeps_scores = cut.keeps_scores;
+      // Less than a band takes is made more when the second one comes; of the others some rows
+      // more stay than are asked for.
+      level.loaded_rows = 4 * cut.band_rows;
     }
     plan.work_folder = cut.work_folder;
     plan.place = cut.place;

@@ -171,11 +171,20 @@ static inline vfloat score_of(vfloat density, vfloat count, int min_views, float
 // The first index of whole lanes at or below i.
 static inline int lanes_floor(int i) { return i / LANES * LANES; }
 
-// First pixel of channel 0 of a row of a view.
+// Where a band has a row.
+static inline int slot_of(const BandParams p, int v) {
+  const int slot = p.first_slot + v - p.row_begin;
+  return slot < p.slots ? slot : slot - p.slots;
+}
+
+// First pixel of channel 0 of a row of a view, in floats from the band's first.
+static inline size_t band_offset(const BandParams p, int view, int v) {
+  return ((size_t)slot_of(p, v) * p.num_views + view) * CHANNELS * p.stride + GIGARAY_PAD;
+}
+
 static inline __global const float* band_row(__global const float* band, const BandParams p, int view,
                                       int v) {
-  return band + ((size_t)(v - p.row_begin) * p.num_views + view) * CHANNELS * p.stride +
-         GIGARAY_PAD;
+  return band + band_offset(p, view, v);
 }
 
 // Positions this near to a pixel centre are that centre, px. Otherwise rounding would decide whether
@@ -311,12 +320,12 @@ static inline __attribute__((always_inline)) void sample_block(__global const fl
   UNROLL
   for (int c = first; c < end; ++c) colour[c] = interpolate_row(row + c * p.stride, at.fx, wx);
   if (at.fy > 0.0f) {
-    const size_t next = (size_t)p.num_views * CHANNELS * p.stride;
+    __global const float* below = band_row(band, p, view, at.y + 1) + at.x;
 #if CUBIC
     const float4 wy = cubic_weights(at.fy);
-    __global const float* above = at.y > 0 ? row - next : row;
-    __global const float* below = row + next;
-    __global const float* below2 = at.y + 2 < p.height ? below + next : below;
+    __global const float* above = at.y > 0 ? band_row(band, p, view, at.y - 1) + at.x : row;
+    __global const float* below2 =
+        at.y + 2 < p.height ? band_row(band, p, view, at.y + 2) + at.x : below;
     UNROLL
     for (int c = first; c < end; ++c)
       colour[c] = wy.s0 * interpolate_row(above + c * p.stride, at.fx, wx) + wy.s1 * colour[c] +
@@ -325,14 +334,14 @@ static inline __attribute__((always_inline)) void sample_block(__global const fl
 #else
     UNROLL
     for (int c = first; c < end; ++c)
-      colour[c] += at.fy * (interpolate_row(row + next + c * p.stride, at.fx, wx) - colour[c]);
+      colour[c] += at.fy * (interpolate_row(below + c * p.stride, at.fx, wx) - colour[c]);
 #endif
   }
 }
 
 // ---- Rays that go each its own way (SHIFT_ALIKE 0) -----------------------------------------------
 // Their samples come from taps, in which the channels of a pixel lie together:
-//   taps  [row][view][width + 1][TAP_WIDTH]: RGB and nothing, then gx, gy and two times nothing
+//   taps  [slot][view][width + 1][TAP_WIDTH]: RGB and nothing, then gx, gy and two times nothing
 // The last pixel of a row is there twice, for the tap to the right.
 
 #define TAP_WIDTH (CHANNELS > 3 ? 8 : 4)
@@ -409,8 +418,11 @@ static inline __attribute__((always_inline)) int sample_lanes(__global const flo
   const vfloat fx = x - VTO_FLOAT(xi), fy = y - VTO_FLOAT(yi);
   // In floats: a buffer has less than 2^31 of them.
   const int pitch = (p.width + 1) * TAP_WIDTH, next = p.num_views * pitch;
-  const vint first = (yi - p.row_begin) * next + view * pitch + xi * TAP_WIDTH;
-  const vint second = first + VSELECT((vint)(0), (vint)(next), yi + 1 < p.row_end);
+  vint slot = yi + (p.first_slot - p.row_begin);
+  slot -= VSELECT((vint)(0), (vint)(p.slots), slot >= p.slots);
+  const vint first = slot * next + view * pitch + xi * TAP_WIDTH;
+  const vint to_next = VSELECT((vint)(next), (vint)((1 - p.slots) * next), slot + 1 == p.slots);
+  const vint second = first + VSELECT((vint)(0), to_next, yi + 1 < p.row_end);
   int upper[LANES], lower[LANES];
   float along[LANES], across[LANES];
   VSTORE(first, upper);

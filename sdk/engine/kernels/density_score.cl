@@ -265,7 +265,6 @@ __kernel void density_score_packed(
   const vint u = CONCAT(vload, LANES)(0, columns);
   const vint v = CONCAT(vload, LANES)(0, rows) + strip.row_begin;
   const float inverse_h = 1.0f / bandwidth;
-  const size_t next = (size_t)p.num_views * CHANNELS * p.stride;
 
   for (int i = first; i <= last; ++i) {
     __global const BlockShift* shift = shifts + (size_t)i * p.num_views;
@@ -287,9 +286,10 @@ __kernel void density_score_packed(
             colour[c] = pair.x + fx * (pair.y - pair.x);
           }
           if (fy > 0.0f) {
+            __global const float* below = band_row(band, p, k, y + 1) + x;
             UNROLL
             for (int c = 0; c < 3; ++c) {
-              const float2 pair = vload2(0, from + c * p.stride + next);
+              const float2 pair = vload2(0, below + c * p.stride);
               colour[c] += fy * (pair.x + fx * (pair.y - pair.x) - colour[c]);
             }
           }

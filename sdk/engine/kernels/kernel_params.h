@@ -17,7 +17,8 @@ namespace gigaray {
 #define SCANLINE_REACH 16
 
 /// A band: rows [row_begin, row_end) of all views at one level, as floats
-/// [row][view][channel][stride], pixel u at GIGARAY_PAD + u.
+/// [slot][view][channel][stride], pixel u at GIGARAY_PAD + u. Row row_begin is in first_slot, and
+/// after the last slot comes the first.
 typedef struct BandParams {
   int width;   ///< of the level, px
   int height;  ///< of the level, px
@@ -25,6 +26,8 @@ typedef struct BandParams {
   int stride;  ///< floats per row of one channel, padding included
   int row_begin;
   int row_end;
+  int slots;
+  int first_slot;
 } BandParams;
 
 /// The rows of the reference view that a step works on. Maps of it are [row - row_begin][pitch]

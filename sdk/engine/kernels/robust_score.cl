@@ -108,11 +108,10 @@ static inline int see_block(__global const float* band, const BandParams p, int 
   view->first_unit = x < 0 ? -x / LANES : 0;
   view->last_unit = min(UNITS - 1, (view->last_column - x) / LANES);
   view->whole = !MASKED & (x >= 0) & (x + UNITS * LANES - 1 <= view->last_column);
-  const size_t next = (size_t)p.num_views * CHANNELS * p.stride;
   view->row = band_row(band, p, k, y) + x;
-  view->above = y > 0 ? view->row - next : view->row;
-  view->below = y + 1 < p.height ? view->row + next : view->row;
-  view->below2 = y + 2 < p.height ? view->below + next : view->below;
+  view->above = y > 0 ? band_row(band, p, k, y - 1) + x : view->row;
+  view->below = y + 1 < p.height ? band_row(band, p, k, y + 1) + x : view->row;
+  view->below2 = y + 2 < p.height ? band_row(band, p, k, y + 2) + x : view->below;
   view->weights_u = tap_weights(shift.fraction_u);
   view->weights_v = tap_weights(shift.fraction_v);
   return 1;

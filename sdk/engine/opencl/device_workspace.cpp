@@ -116,22 +116,26 @@ const Buffer& DeviceWorkspace::buffer_of(const Memory* memory) const {
 
 void DeviceWorkspace::set_active_views(const std::vector<int>& views) { active_views_ = views; }
 
-void DeviceWorkspace::begin_level(const LevelShape& shape) {
+void DeviceWorkspace::begin_level(const LevelShape& shape, int band_rows) {
   level_ = shape.level;
   band_.width = shape.width;
   band_.height = shape.height;
   band_.stride = map_pitch(shape.width);
+  ring_ = {{}, band_rows};
   loaded_views_.clear();
   places_.clear();
   for (RawScores& volume : volumes_) volume.rows = {};
 }
 
-void DeviceWorkspace::load_band(RowRange rows, const std::vector<int>& views,
+void DeviceWorkspace::load_band(RowRange rows, RowRange fresh, const std::vector<int>& views,
                                 const EncodedRows& source) {
   restore_reference();
   see_views(views);
-  band_.row_begin = rows.begin;
-  band_.row_end = rows.end;
+  const RowRange want_gradients = ring_.load(rows, fresh);
+  band_.row_begin = ring_.rows.begin;
+  band_.row_end = ring_.rows.end;
+  band_.slots = ring_.slots;
+  band_.first_slot = ring_.slot(ring_.rows.begin);
   if (at_ != source.at) {
     at_ = source.at;
     at_buffer_ = upload(at_);
@@ -139,29 +143,29 @@ void DeviceWorkspace::load_band(RowRange rows, const std::vector<int>& views,
   const int bits = source.encoding == BandEncoding::kBits8    ? 8
                    : source.encoding == BandEncoding::kBits16 ? 16
                                                               : 32;
-  const std::size_t lines = std::size_t(rows.size()) * band_.num_views;
+  const std::size_t lines = std::size_t(ring_.slots) * band_.num_views;
   Buffer& band = band_memory_.at_least(device_, lines * channels() * band_.stride * sizeof(float));
-  const WorkSize all(band_.num_views, rows.size());
+  const WorkSize all(band_.num_views, fresh.size());
   plain_kernel("unpack_channels", "unpack_colours")
       .set_args(buffer_of(source.pixels), bits, source.pixels.begin, source.pixels.stored_views,
-                at_buffer_, table_buffer_, band_, band)
+                at_buffer_, table_buffer_, band_, fresh.begin, band)
       .run(all, WorkSize(1, 1));
   if (setup_.options.score.gradient)
     plain_kernel("unpack_channels", "unpack_gradients")
-        .set_args(band_, 0, band)
-        .run(all, WorkSize(1, 1));
+        .set_args(band_, want_gradients.begin, band)
+        .run(WorkSize(band_.num_views, want_gradients.size()), WorkSize(1, 1));
   const ShownRows& shown = source.shown;
   is_masked_ = bool(shown.rows);
   if (is_masked_)
     plain_kernel("unpack_channels", "mask_pixels")
         .set_args(buffer_of(shown.rows), shown.rows.begin, shown.width, shown.shift,
-                  shown.rows.stored_views, at_buffer_, kMaskedColour, band_, band)
+                  shown.rows.stored_views, at_buffer_, kMaskedColour, band_, fresh.begin, band)
         .run(all, WorkSize(1, 1));
   if (!all_views_.rays_shift_alike) {
     const std::size_t tap_bytes = (channels() > 3 ? 8 : 4) * sizeof(float);
     Buffer& taps = taps_.at_least(device_, lines * (band_.width + 1) * tap_bytes);
     plain_kernel("unpack_channels", "interleave_taps")
-        .set_args(band, band_, taps)
+        .set_args(band, band_, fresh.begin, taps)
         .run(all, WorkSize(1, 1));
   }
 }
@@ -193,8 +197,8 @@ void DeviceWorkspace::mean_gradients(RowRange rows, const Map<float>& means) {
 DeviceWorkspace::OwnPixels DeviceWorkspace::pixels_of(const Map<float>& means) const {
   BandParams own = band_;
   own.num_views = 1;
-  own.row_begin = 0;
-  own.row_end = band_.height;
+  own.row_begin = own.first_slot = 0;
+  own.row_end = own.slots = band_.height;
   return {buffer_of(means), own, 0};
 }
 

@@ -14,6 +14,7 @@
 #include "opencl/lane_kernel.h"
 #include "opencl/opencl_workspace.h"
 #include "opencl/sampler_twin.h"
+#include "src/band_ring.h"
 #include "src/workspace.h"
 
 namespace gigaray::opencl {
@@ -44,8 +45,12 @@ class DeviceWorkspace : public Workspace {
   const std::map<std::string, double>& seconds() const override { return device_.log()->seconds(); }
 
   void set_active_views(const std::vector<int>& views) override;
-  void begin_level(const LevelShape& shape) override;
-  void load_band(RowRange rows, const std::vector<int>& views, const EncodedRows& source) override;
+  void begin_level(const LevelShape& shape, int band_rows) override;
+  RowRange missing_rows(RowRange rows, const std::vector<int>& views) const override {
+    return views == loaded_views_ ? ring_.missing(rows) : rows;
+  }
+  void load_band(RowRange rows, RowRange fresh, const std::vector<int>& views,
+                 const EncodedRows& source) override;
   void downsample(RowRange small_rows, const RowsOnDevice& small, int first) override;
   int channels() const override { return setup_.options.score.gradient ? 5 : 3; }
   void ray_mean(int ref, RowRange rows, const Map<std::uint8_t>& wanted,
@@ -237,6 +242,7 @@ class DeviceWorkspace : public Workspace {
   KernelSet kernels_;
   std::vector<float> table_;
   HypothesisParams hypotheses_{};
+  BandRing ring_;
   BandParams band_{};
   int level_ = 0;
   std::vector<int> active_views_, loaded_views_;

@@ -21,6 +21,7 @@
 #include "score_support.h"
 #include "search_bounds.h"
 #include "slope_fit.h"
+#include "src/band_ring.h"
 #include "src/band_views.h"
 #include "src/make_workspace.h"
 #include "src/row_store.h"
@@ -109,39 +110,51 @@ class ReferenceWorkspace : public Workspace {
   const std::map<std::string, double>& seconds() const override { return seconds_; }
 
   void set_active_views(const std::vector<int>& views) override { active_views_ = views; }
-  void begin_level(const LevelShape& shape) override {
+  void begin_level(const LevelShape& shape, int band_rows) override {
+    ring_ = {{}, band_rows};
+    loaded_views_.clear();
     band_ = Band{shape, {}, 0, channels(), {}};
     places_.clear();
     active_places_.clear();
     volumes_ = {};
   }
-  void load_band(RowRange rows, const std::vector<int>& views, const EncodedRows& source) override {
+  RowRange missing_rows(RowRange rows, const std::vector<int>& views) const override {
+    return views == loaded_views_ ? ring_.missing(rows) : rows;
+  }
+  void load_band(RowRange rows, RowRange fresh, const std::vector<int>& views,
+                 const EncodedRows& source) override {
     restore_reference();
+    loaded_views_ = views;
     sampler_ = level0_sampler_.subset(views).at_level(band_.shape.level);
     places_ = places_in(views, level0_sampler_.num_views());
     active_places_.clear();
     for (const int active : active_views_) active_places_.push_back(places_[active]);
-    band_.rows = rows;
+    const RowRange want_gradients = ring_.load(rows, fresh);
+    const std::size_t row = std::size_t(views.size()) * band_.channels * band_.shape.width;
+    if (ring_.rows.begin > band_.rows.begin && fresh != rows)
+      band_.data.erase(band_.data.begin(),
+                       band_.data.begin() + (ring_.rows.begin - band_.rows.begin) * row);
+    band_.rows = ring_.rows;
     band_.num_views = int(views.size());
-    band_.data.resize(std::size_t(rows.size()) * band_.num_views * band_.channels *
-                      band_.shape.width);
+    band_.data.resize(band_.rows.size() * row);
     const std::size_t line = band_.shape.width * pixel_bytes(source.encoding);
-    std::vector<std::byte> encoded(std::size_t(rows.size()) * views.size() * line);
+    std::vector<std::byte> encoded(std::size_t(fresh.size()) * views.size() * line);
     std::byte* out = encoded.data();
-    for (int v = rows.begin; v < rows.end; ++v)
+    for (int v = fresh.begin; v < fresh.end; ++v)
       for (const int at : source.at) {
         const std::size_t from =
             std::size_t(v - source.pixels.begin) * source.pixels.stored_views + at;
         std::memcpy(out, bytes_of(*source.pixels.memory) + from * line, line);
         out += line;
       }
-    unpack_channels(encoded.data(), source.encoding, table_, band_);
+    unpack_colours(encoded.data(), source.encoding, table_, fresh, band_);
+    unpack_gradients(want_gradients, band_);
     if (!source.shown.rows) return;
     std::vector<std::uint8_t> mask;
-    for (int v = rows.begin; v < rows.end; ++v)
+    for (int v = fresh.begin; v < fresh.end; ++v)
       for (const int at : source.at)
         for (int u = 0; u < band_.shape.width; ++u) mask.push_back(shows(source.shown, at, u, v));
-    mask_pixels(mask.data(), band_);
+    mask_pixels(mask.data(), fresh, band_);
   }
   void downsample(RowRange small_rows, const RowsOnDevice& small, int first) override {
     const std::size_t line = std::size_t((band_.shape.width + 1) / 2) * 3;
@@ -472,7 +485,7 @@ class ReferenceWorkspace : public Workspace {
     for (int v = 0; v < band.rows.end; ++v)
       for (int c = 0; c < 3; ++c)
         std::copy_n(view(means).row(v * band.channels + c), band.shape.width, band.plane(0, v, c));
-    unpack_gradients(band);
+    unpack_gradients(band.rows, band);
     return band;
   }
   /// Where the pixels of the reference view are.
@@ -505,6 +518,8 @@ class ReferenceWorkspace : public Workspace {
   std::vector<int> active_views_;
   std::vector<int> places_;         ///< of the views in band_
   std::vector<int> active_places_;  ///< the same, of the active views
+  std::vector<int> loaded_views_;
+  BandRing ring_;
   Band band_;
   Band own_;  ///< replaced pixels of the reference view; empty: those of band_
   std::array<Scores, 2> volumes_;

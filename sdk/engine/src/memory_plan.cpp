@@ -189,7 +189,7 @@ class Planner {
     double peak_band = 0;
     for (const LevelShape& shape : shapes_) {
       const StripNeeds needs = strip_needs(options_.support, shape.level);
-      LevelPlan level{shape, 0, 0, halo(shape), 0, false};
+      LevelPlan level{shape, 0, 0, 0, halo(shape), 0, false};
       const int held = int(volume / volume_row_bytes(shape.width, hypotheses_));
       const int lag = score_lag(shape.level);
       level.keeps_scores = lag > 0 && held >= std::min(lag + needs.multiple, shape.height);
@@ -215,6 +215,7 @@ class Planner {
       if (level.band_rows < shape.height)
         level.strip_rows = std::min(level.strip_rows, level.band_rows);
       level.window_rows = sweeps ? window_rows(shape, level.band_rows, stage_lag) : 0;
+      level.loaded_rows = loaded_rows(shape, level.band_rows, held_lag);
       result.levels.push_back(level);
     }
     const double bands_on_host = device_.shares_host_memory ? device_.devices * peak_band : 0;

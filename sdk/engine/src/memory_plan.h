@@ -18,8 +18,9 @@ struct LevelPlan {
   /// Rows whose pixels are there during a sweep: a band and what its stages lag. 0: every stage
   /// loads its own.
   int window_rows = 0;
-  int halo = 0;               ///< Rows around a band that the steps look at in one view.
-  int strip_rows = 0;         ///< Rows that a sweep goes on by; no more than a band.
+  int loaded_rows = 0;  ///< Most rows of a band in memory, as a rule: with halo and rays' reach.
+  int halo = 0;         ///< Rows around a band that the steps look at in one view.
+  int strip_rows = 0;   ///< Rows that a sweep goes on by; no more than a band.
   bool keeps_scores = false;  ///< Scores of the first look are there for the slanted one.
 };
 

@@ -74,7 +74,7 @@ Band EncodedView::band(RowRange rows, int channels) const {
   band.data.resize(std::size_t(rows.size()) * channels * width);
   // Values above 8 bits or not: the decoder always gives 16-bit integers.
   reference::unpack_channels(picture_.row(rows.begin), BandEncoding::kBits16, table_, band);
-  if (mask_) reference::mask_pixels(mask_->row(rows.begin), band);
+  if (mask_) reference::mask_pixels(mask_->row(rows.begin), rows, band);
   return band;
 }
 

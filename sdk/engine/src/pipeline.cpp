@@ -100,8 +100,8 @@ void Pipeline::begin_level() {
     next.search = make_rows(next_rows.todo, active, next.shape.width * sizeof(Search));
     levels_.push_back(std::move(next));
   }
-  workspace_.begin_level(shape());
-  loaded_sweep_ = loaded_rows_ = {};
+  workspace_.begin_level(shape(), plan_.levels[level_].loaded_rows);
+  loaded_sweep_ = {};
   loaded_views_.clear();
   make_maps();
 }
@@ -184,9 +184,8 @@ ShownRows Pipeline::open_shown(RowRange rows, const std::vector<int>& views, std
 void Pipeline::load_rows(const std::vector<int>& views, RowRange rows, bool masked) {
   control_.throw_if_cancelled();
   masked = masked && !shown_.empty();
-  if (rows.begin >= loaded_rows_.begin && rows.end <= loaded_rows_.end && views == loaded_views_ &&
-      masked == loaded_masked_)
-    return;
+  const RowRange missing = masked == loaded_masked_ ? workspace_.missing_rows(rows, views) : rows;
+  if (missing.size() == 0) return;
   workspace_.begin_stage("load");
   const StageTimer timer(seconds_, "load");
   loaded_sweep_ = {};
@@ -194,10 +193,9 @@ void Pipeline::load_rows(const std::vector<int>& views, RowRange rows, bool mask
   source.encoding = level_ > 0                              ? BandEncoding::kFloat
                     : light_field_.pixels->bit_depth() == 8 ? BandEncoding::kBits8
                                                             : BandEncoding::kBits16;
-  if (masked) source.shown = open_shown(rows, views, source.at);
-  source.pixels = levels_[level_].pixels.open(rows, views, source.at);
-  workspace_.load_band(rows, views, source);
-  loaded_rows_ = rows;
+  if (masked) source.shown = open_shown(missing, views, source.at);
+  source.pixels = levels_[level_].pixels.open(missing, views, source.at);
+  workspace_.load_band(rows, missing, views, source);
   loaded_views_ = views;
   loaded_masked_ = masked;
 }

@@ -177,7 +177,6 @@ class Pipeline {
   Maps of_view_;
   std::vector<int> todo_counts_;  ///< pixels to do of the view that is worked on, by row
   RowRange loaded_sweep_;         ///< rows of a sweep that the loaded rows are for; empty: none
-  RowRange loaded_rows_;
   std::vector<int> loaded_views_;
   bool loaded_masked_ = false;
   bool sees_means_ = false;           ///< means stand for the pixels of the view that is worked on

@@ -380,8 +380,8 @@ ScoreCurve Estimator::probe(const LightField& light_field, const DepthOptions& o
   source.encoding = bytes.empty() ? BandEncoding::kBits16 : BandEncoding::kBits8;
   source.pixels = bytes.empty() ? to_device(encoded) : to_device(bytes);
   if (!mask.empty()) source.shown = {to_device(mask), width, 0};
-  workspace->begin_level({0, width, height});
-  workspace->load_band(rows, partners, source);
+  workspace->begin_level({0, width, height}, rows.size());
+  workspace->load_band(rows, rows, partners, source);
 
   // The window around the pixel is to do, with all hypotheses; maps are of the whole view.
   const RowRange all{0, height};

@@ -140,9 +140,15 @@ class Workspace {
   // ---- Pixels -----------------------------------------------------------------------------------
   /// Views that keep estimates, in the order that rows of the active views have.
   virtual void set_active_views(const std::vector<int>& views) = 0;
-  virtual void begin_level(const LevelShape& shape) = 0;
-  /// rows: what is loaded, halo included. views: whose, ascending; the steps see no others.
-  virtual void load_band(RowRange rows, const std::vector<int>& views,
+  /// band_rows: most rows of a band to come, as a rule.
+  virtual void begin_level(const LevelShape& shape, int band_rows) = 0;
+  /// The rows to load so that the band holds some rows of some views: those that it has stay.
+  /// Empty: it holds them already.
+  virtual RowRange missing_rows(RowRange rows, const std::vector<int>& views) const = 0;
+  /// rows: what is loaded, halo included. views: whose, ascending; the steps see no others. fresh:
+  /// the rows that `source` has, all or those that are missing; the others came by the same
+  /// encoding and mask.
+  virtual void load_band(RowRange rows, RowRange fresh, const std::vector<int>& views,
                          const EncodedRows& source) = 0;
   /// small: pixels of the level below, [v][stored view][3][(width + 1) / 2]; the loaded views are
   /// those from `first` on. The band covers rows 2v − 3 … 2v + 3 of them.

@@ -109,7 +109,7 @@ std::unique_ptr<TrialBench> KernelTrial::make_bench(std::unique_ptr<Workspace> w
   Workspace& device = *workspace;
   bench->workspace = std::move(workspace);
   device.set_active_views(all_views(num_views()));
-  device.begin_level({0, shape_.width, shape_.height});
+  device.begin_level({0, shape_.width, shape_.height}, shape_.height);
   const auto make = [&]<class T>(const StripMap<T>& from, Map<T>& to) {
     to = device.make_map<T>(shape_.width, rows());
     if (from.rows() == rows()) device.put(from, to);
@@ -138,7 +138,7 @@ std::unique_ptr<TrialBench> KernelTrial::make_bench(std::unique_ptr<Workspace> w
 }
 
 void KernelTrial::load(TrialBench& bench) const {
-  bench.workspace->load_band(rows(), all_views(num_views()), bench.pixels);
+  bench.workspace->load_band(rows(), rows(), all_views(num_views()), bench.pixels);
 }
 
 std::unique_ptr<TrialBench> KernelTrial::reference() const {
