@@ -16,6 +16,27 @@ namespace gigaray {
 #define SCANLINE_BLOCK 16
 #define SCANLINE_REACH 16
 
+/// The kernel of colour in robust_score.cl: a triangle, and one that is TAIL_WIDTH as wide, whose
+/// part is TAIL_SHARE: colours that change a little with the view still count.
+#define TAIL_SHARE 0.3f
+#define TAIL_WIDTH 3.0f
+
+/// Sides of jumps, see jump_sides.cl. What is within the squared distance SIDE_WINDOW2 of a pixel,
+/// SIDE_WINDOW rows, tells whether there is a jump; what is within SIDE_COLOURS which colours the
+/// sides have, where each shows SIDE_LEAST_COLOURS. The kernel is SIDE_WIDER than that of scores;
+/// sums are divided by a share of the other views at least. A colour counts SIDE_COLOUR_SHARE, and
+/// a pixel goes over to the other side when that leads by SIDE_LEAD.
+#define SIDE_WINDOW 2
+#define SIDE_WINDOW2 5
+#define SIDE_COLOURS 3
+#define SIDE_LEAST_COLOURS 3.0f
+#define SIDE_VIEW_REACH 16  // rows; what stands in the way is looked for no farther away
+#define SIDE_WIDER 4.0f
+#define SIDE_NEAR_FLOOR 0.25f
+#define SIDE_FAR_FLOOR (1.0f / 6.0f)
+#define SIDE_COLOUR_SHARE 0.5f
+#define SIDE_LEAD 0.1f
+
 /// A band: rows [row_begin, row_end) of all views at one level, as floats
 /// [slot][view][channel][stride], pixel u at GIGARAY_PAD + u. Row row_begin is in first_slot, and
 /// after the last slot comes the first.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Gigaray authors
-// Robust score: triangle kernels of colour and of the gradient around the reference pixel's own values,
+// Robust score: kernels around the reference pixel's own values, a triangle with a tail (TAIL_SHARE) of
+// colour and a triangle of the gradient,
 //   K = (1 - share) Kc + share Kg min(1, 4 Kc),
 // averaged over the views. The gate keeps an occluder of another colour from scoring by its gradient.
 //   band    [row][view][5][stride]: RGB, gx, gy
@@ -46,6 +47,12 @@
 #else
 #define TURN(i) (i)
 #endif
+
+// distance: in bandwidths.
+static inline vfloat tailed_kernel(vfloat distance) {
+  return (1.0f - TAIL_SHARE) * max(1.0f - distance, (vfloat)(0.0f)) +
+         TAIL_SHARE * max(1.0f - (1.0f / TAIL_WIDTH) * distance, (vfloat)(0.0f));
+}
 
 #if SHIFT_ALIKE
 
@@ -188,7 +195,7 @@ INLINE void add_run(const BlockView* view, const Run run, __global const float* 
   for (int j = first; j <= last; ++j) {
     const vfloat squared =
         distance2(view, own, stride, 0, 3, j, between_rows, between_columns, window);
-    colour[UNIT(j)] = max(1.0f - sqrt(squared) * kernels.inverse_h, (vfloat)(0.0f));
+    colour[UNIT(j)] = tailed_kernel(sqrt(squared) * kernels.inverse_h);
     if (!view->whole) {
       const vint column = view->x + j * LANES + VLANES;
       vfloat inside =
@@ -343,7 +350,7 @@ __kernel void robust_score(__global const float* taps, const BandParams p, const
         vfloat squared = (vfloat)(0.0f);
         UNROLL
         for (int c = 0; c < 3; ++c) squared += (sample[c] - own[c]) * (sample[c] - own[c]);
-        const vfloat colour = inside * max(1.0f - sqrt(squared) * inverse_h, (vfloat)(0.0f));
+        const vfloat colour = inside * tailed_kernel(sqrt(squared) * inverse_h);
         UNROLL
         for (int part = 0; part < PARTS; ++part)
           if (PARTS == 1 || members[k] >> part & 1) counts[part] += inside;

@@ -134,6 +134,29 @@ void DeviceWorkspace::step_back(RowRange rows, float farther, const Map<float>& 
              buffer_of(best), buffer_of(own), buffer_of(disparity), buffer_of(confidence));
 }
 
+void DeviceWorkspace::side_evidence(int ref, RowRange rows, float jump,
+                                    const Map<std::uint8_t>& todo, const Map<float>& disparity,
+                                    const Map<float>& evidence) {
+  const OwnPixels own = reference_pixels(ref);
+  LaneKernel& kernel = lane_kernel("jump_sides", sides_defines(), "side_evidence");
+  kernel.kernel.set_args(band_memory_.buffer, band_, strip(ref, rows), own.buffer, own.band,
+                         own.view, rays(ref), buffer_of(todo), buffer_of(disparity), jump,
+                         SIDE_WIDER * setup_.options.score.bandwidth, buffer_of(evidence));
+  kernel.run_pixels(band_.width, rows.size());
+}
+
+void DeviceWorkspace::choose_sides(int ref, RowRange rows, float jump, const Map<float>& disparity,
+                                   const Map<float>& confidence, const Map<float>& evidence,
+                                   const Map<float>& chosen, const Map<float>& chosen_confidence) {
+  const OwnPixels own = reference_pixels(ref);
+  LaneKernel& kernel = lane_kernel("jump_sides", sides_defines(), "choose_sides");
+  kernel.kernel.set_args(own.buffer, own.band, own_strip(own.view, rows), buffer_of(disparity),
+                         buffer_of(confidence), buffer_of(evidence), jump,
+                         setup_.options.support.sigma_colour, buffer_of(chosen),
+                         buffer_of(chosen_confidence));
+  kernel.run_pixels(band_.width, rows.size());
+}
+
 void DeviceWorkspace::bilateral_median(int ref, RowRange rows, int radius, float tolerance,
                                        const Map<float>& in, const Map<float>& out) {
   const bool bilateral = std::isfinite(tolerance);

@@ -11,6 +11,7 @@ namespace gigaray::opencl {
 namespace {
 
 static_assert(kMapPad == GIGARAY_PAD);
+static_assert(kSideReach == SIDE_WINDOW + SIDE_VIEW_REACH && kSideColours == SIDE_COLOURS);
 static_assert(kScanlineBlock == SCANLINE_BLOCK && kScanlineReach == SCANLINE_REACH);
 
 /// Lanes never reach beyond this many hypotheses of a pixel.
@@ -309,6 +310,10 @@ std::string DeviceWorkspace::support_defines() const {
   return define("SUPPORT_RADIUS", setup_.options.support.radius);
 }
 
+std::string DeviceWorkspace::sides_defines() const {
+  return define("CUBIC", setup_.options.score.cubic);
+}
+
 std::string DeviceWorkspace::winner_defines() const {
   return define("REFINE", setup_.options.winner.refine);
 }
@@ -337,6 +342,7 @@ std::vector<KernelFile> DeviceWorkspace::usual_files() const {
   if (all_views_.rays_shift_alike) files.push_back({"block_shifts", ""});
   if (options.support.radius > 0) files.push_back({"score_support", support_defines()});
   if (options.support.slanted) files.push_back({"slope_fit", ""});
+  if (options.support.choose_sides) files.push_back({"jump_sides", sides_defines()});
   if (options.support.scanline) files.push_back({"scanline", ""});
   if (options.winner.weigh_by_edge) files.push_back({"edge_confidence", edge_defines()});
   return files;

@@ -106,6 +106,11 @@ class DeviceWorkspace : public Workspace {
   void step_back(RowRange rows, float farther, const Map<float>& winners,
                  const Map<float>& contrast, const Map<float>& best, const Map<float>& own,
                  const Map<float>& disparity, const Map<float>& confidence) override;
+  void side_evidence(int ref, RowRange rows, float jump, const Map<std::uint8_t>& todo,
+                     const Map<float>& disparity, const Map<float>& evidence) override;
+  void choose_sides(int ref, RowRange rows, float jump, const Map<float>& disparity,
+                    const Map<float>& confidence, const Map<float>& evidence,
+                    const Map<float>& chosen, const Map<float>& chosen_confidence) override;
   void bilateral_median(int ref, RowRange rows, int radius, float tolerance, const Map<float>& in,
                         const Map<float>& out) override;
   void slope_fit(int ref, RowRange rows, const Map<std::uint8_t>& todo, const Map<float>& in,
@@ -181,6 +186,7 @@ class DeviceWorkspace : public Workspace {
   std::string robust_defines(bool half_planes) const;
   std::string edge_defines() const;
   std::string support_defines() const;
+  std::string sides_defines() const;
   std::string winner_defines() const;
   static std::string median_defines(int radius, bool bilateral);
   std::string arrival_defines() const;

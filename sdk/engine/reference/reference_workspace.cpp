@@ -12,6 +12,7 @@
 #include "edge_confidence.h"
 #include "estimates.h"
 #include "gigaray/samplers/any_sampler.h"
+#include "jump_sides.h"
 #include "masks.h"
 #include "mean_radiance.h"
 #include "propagation.h"
@@ -374,6 +375,28 @@ class ReferenceWorkspace : public Workspace {
                  const Map<float>& disparity, const Map<float>& confidence) override {
     reference::step_back(rows, farther, kStepBackLead, view(winners), view(contrast), view(best),
                          view(own), view(disparity), view(confidence));
+  }
+  void side_evidence(int ref, RowRange rows, float jump, const Map<std::uint8_t>& todo,
+                     const Map<float>& disparity, const Map<float>& evidence) override {
+    const OwnPixels own = reference_pixels(ref);
+    for (int v = rows.begin; v < rows.end; ++v)
+      for (int u = 0; u < disparity.width(); ++u) {
+        float& answer = view(evidence).row(v)[u];
+        answer = kNoEstimate;
+        if (!view(todo).row(v)[u]) continue;
+        const auto sides = reference::sides_at(view(disparity), band_.shape.height, u, v, jump);
+        if (std::isnan(sides.near) || std::isnan(sides.far)) continue;
+        answer = reference::side_evidence(band_, sampler_, place(ref), u, v, sides, view(disparity),
+                                          own.band.pixel(own.view, u, v), setup_.options.score);
+      }
+  }
+  void choose_sides(int ref, RowRange rows, float jump, const Map<float>& disparity,
+                    const Map<float>& confidence, const Map<float>& evidence,
+                    const Map<float>& chosen, const Map<float>& chosen_confidence) override {
+    const OwnPixels own = reference_pixels(ref);
+    reference::choose_sides(own.band, own.view, rows, jump, setup_.options.support.sigma_colour,
+                            view(disparity), view(confidence), view(evidence), view(chosen),
+                            view(chosen_confidence));
   }
   void bilateral_median(int ref, RowRange rows, int radius, float tolerance, const Map<float>& in,
                         const Map<float>& out) override {

@@ -2,10 +2,14 @@
 // Copyright (c) 2026 The Gigaray authors
 #include "robust_score.h"
 
+#include "kernels/kernel_params.h"
+
 namespace gigaray::reference {
 
 float robust_kernel(const Sample& sample, const Sample& own, const ScoreOptions& options) {
-  const float k_colour = colour_kernel(sample, own, options);
+  const float distance = colour_distance(sample, own) / options.bandwidth;
+  const float k_colour = (1 - TAIL_SHARE) * std::max(1 - distance, 0.0f) +
+                         TAIL_SHARE * std::max(1 - distance / TAIL_WIDTH, 0.0f);
   const float gx = sample[3] - own[3], gy = sample[4] - own[4];
   const float k_gradient =
       std::max(1 - std::sqrt(gx * gx + gy * gy) / options.gradient_bandwidth, 0.0f);

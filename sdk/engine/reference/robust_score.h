@@ -11,7 +11,7 @@
 
 namespace gigaray::reference {
 
-/// Triangle kernels of colour and gradient around `own`, 0 … 1 (docs/method.md).
+/// Kernels of colour, a triangle with a tail, and of gradient around `own`, 0 … 1 (docs/method.md).
 float robust_kernel(const Sample& sample, const Sample& own, const ScoreOptions& options);
 
 /// A sample of view `other` with its gradient as the pixels of `ref` see it: turned and scaled by

@@ -67,6 +67,9 @@ void DepthOptions::check() const {
   if (support.half_planes && !(support.slanted && score.gradient))
     throw Error(ErrorCode::kInvalidArgument,
                 "support.half_planes needs support.slanted and score.gradient");
+  if (support.choose_sides && !(support.slanted && score.gradient))
+    throw Error(ErrorCode::kInvalidArgument,
+                "support.choose_sides needs support.slanted and score.gradient");
   in_range("winner.median_radius", winner.median_radius, 0, 8);
   in_range("winner.median_tolerance", winner.median_tolerance, kTiny, kLarge);
   in_range("winner.min_relief", winner.min_relief, 0.0f, 1.0f);
@@ -112,7 +115,9 @@ DepthOptions auto_options() {
   options.support.radius = 4;
   options.support.slanted = true;
   options.support.half_planes = true;
+  options.support.choose_sides = true;
   options.support.scanline = true;
+  options.support.small_price = 0.15f;
   options.winner.refine = true;
   options.winner.median_radius = 2;
   options.winner.weigh_by_edge = false;

@@ -41,6 +41,8 @@ struct Search {
 
 /// Rows around a pixel that slope_fit looks at.
 inline constexpr int kSlopeReach = 15;
+/// Rows around a pixel that side_evidence looks at, and choose_sides.
+inline constexpr int kSideReach = 18, kSideColours = 3;
 /// The scan-line step follows columns in blocks of so many rows,
 inline constexpr int kScanlineBlock = 16;
 /// and looks at so many rows on both sides of a block.

@@ -150,11 +150,13 @@ class Planner {
   }
 
   /// Maps of one view: what is to do and its bounds (twice with support), disparity, confidence,
-  /// median, radiance, scratch; slopes and what lies beside jumps; means along rays (5 channels).
+  /// median, radiance, scratch; slopes and what lies beside jumps; sides of jumps; means along rays
+  /// (5 channels).
   double view_map_bytes() const {
     const SupportOptions& support = options_.support;
     return double(map_pitch(light_field_.width)) * light_field_.height *
-           (46 + (support.slanted ? 20 : 0) + (options_.score.ray_mean ? 20 : 0));
+           (46 + (support.slanted ? 20 : 0) + (support.choose_sides ? 8 : 0) +
+            (options_.score.ray_mean ? 20 : 0));
   }
   double map_bytes() const {
     const double view_maps = device_.shares_host_memory ? device_.devices * view_map_bytes() : 0;

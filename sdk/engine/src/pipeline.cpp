@@ -134,6 +134,10 @@ void Pipeline::make_maps() {
     maps.behind_todo = workspace_.make_map<std::uint8_t>(width, all);
     maps.behind_bounds = workspace_.make_map<HypothesisBounds>(width, all);
   }
+  if (support.choose_sides) {
+    maps.evidence = workspace_.make_map<float>(width, all);
+    maps.side_confidence = workspace_.make_map<float>(width, all);
+  }
   if (options_.score.ray_mean)
     maps.means = workspace_.make_map<float>(width, {0, all.size() * workspace_.channels()});
 }

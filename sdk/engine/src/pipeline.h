@@ -59,6 +59,7 @@ class Pipeline {
     Map<float> means;                       ///< along rays
     Map<std::uint8_t> beside, behind_todo;  ///< beside jumps, and what supports that
     Map<HypothesisBounds> behind_bounds;
+    Map<float> evidence, side_confidence;  ///< of sides of jumps; with the first choice
     Map<std::uint8_t> scratch, more_scratch;
     Map<Radiance> radiance;
   };
@@ -86,6 +87,10 @@ class Pipeline {
   int slanted_scores_begin() const;
   void support(int view, RowRange rows, const Map<std::uint8_t>& todo, bool along_slopes);
   void look_behind(int view, RowRange rows);
+  void find_sides(int view, RowRange rows, const Map<float>& disparity);
+  void choose_sides(int view, RowRange rows, const Map<float>& disparity,
+                    const Map<float>& confidence, const Map<float>& chosen,
+                    const Map<float>& chosen_confidence);
   void take_winners(int view, RowRange rows, const Map<float>& winners, const Map<float>& contrast);
   void see_means(bool see);
   void accept(int active_idx, RowRange rows, bool anything);

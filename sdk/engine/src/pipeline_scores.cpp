@@ -18,8 +18,7 @@ constexpr double kSamplesAtOnce = 1e9;
 constexpr int kFirstScores = 0, kNewScores = 1;
 
 bool sees_means(SweepStep step) {
-  return step == SweepStep::kSlopesAgain || step == SweepStep::kLastLook ||
-         step == SweepStep::kBeside || step == SweepStep::kLookBehind;
+  return step >= SweepStep::kSlopesAgain && step < SweepStep::kAccept;
 }
 
 }  // namespace
@@ -84,6 +83,7 @@ void Pipeline::run_stage(int active_idx, SweepStep step, RowRange rows,
       return look(view, step, rows);
     case SweepStep::kSmooth:
     case SweepStep::kSmoothAgain:
+    case SweepStep::kLastMedian:
       load();
       workspace_.begin_stage("median");
       return workspace_.bilateral_median(view, rows, options_.winner.median_radius,
@@ -110,6 +110,20 @@ void Pipeline::run_stage(int active_idx, SweepStep step, RowRange rows,
       if (!anything) return;
       load();
       return look_behind(view, rows);
+    case SweepStep::kSideEvidence:
+      load();
+      return find_sides(view, rows, maps.smooth);
+    case SweepStep::kSideEvidenceAgain:
+      load();
+      return find_sides(view, rows, maps.disparity);
+    case SweepStep::kChooseSides:
+      load();
+      return choose_sides(view, rows, maps.smooth, maps.confidence, maps.disparity,
+                          maps.side_confidence);
+    case SweepStep::kChooseSidesAgain:
+      load();
+      return choose_sides(view, rows, maps.disparity, maps.side_confidence, maps.accepted,
+                          maps.confidence);
     case SweepStep::kAccept:
       if (anything) load();
       return accept(active_idx, rows, anything);
@@ -221,6 +235,20 @@ void Pipeline::look_behind(int view, RowRange rows) {
   workspace_.score_of_estimate(rows, maps.beside, maps.disparity, own);
   workspace_.step_back(rows, kFarther * float(hypotheses_.step()), winners, contrast, best, own,
                        maps.disparity, maps.confidence);
+}
+
+void Pipeline::find_sides(int view, RowRange rows, const Map<float>& disparity) {
+  workspace_.begin_stage("sides");
+  workspace_.side_evidence(view, rows, kJump * float(hypotheses_.step()), of_view_.todo, disparity,
+                           of_view_.evidence);
+}
+
+void Pipeline::choose_sides(int view, RowRange rows, const Map<float>& disparity,
+                            const Map<float>& confidence, const Map<float>& chosen,
+                            const Map<float>& chosen_confidence) {
+  workspace_.begin_stage("sides");
+  workspace_.choose_sides(view, rows, kJump * float(hypotheses_.step()), disparity, confidence,
+                          of_view_.evidence, chosen, chosen_confidence);
 }
 
 void Pipeline::take_winners(int view, RowRange rows, const Map<float>& winners,

@@ -82,7 +82,8 @@ void Pipeline::accept(int active_idx, RowRange rows, bool anything) {
   const float threshold =
       is_last_level() ? -std::numeric_limits<float>::infinity() : options_.winner.min_confidence;
   workspace_.begin_stage("median");
-  if (anything)
+  const bool is_last_median = level_ > 0 || !options_.support.choose_sides;
+  if (anything && is_last_median)
     workspace_.bilateral_median(view, rows, options_.winner.median_radius,
                                 options_.winner.median_tolerance, maps.disparity, accepted);
   workspace_.accept(rows, threshold, maps.todo, maps.confidence, accepted);

@@ -3,6 +3,7 @@
 #include "sweep.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "workspace.h"
 
@@ -44,7 +45,18 @@ std::vector<SweepStage> sweep_stages(const DepthOptions& options, int level, int
       stages.push_back({SweepStep::kLookBehind, 2 * support.radius, 1});
     }
   }
-  stages.push_back({SweepStep::kAccept, median, 1});
+  if (again && support.choose_sides) {
+    stages.push_back({SweepStep::kLastMedian, median, 1});
+    for (const auto& [evidence, choice] :
+         {std::pair(SweepStep::kSideEvidence, SweepStep::kChooseSides),
+          std::pair(SweepStep::kSideEvidenceAgain, SweepStep::kChooseSidesAgain)}) {
+      stages.push_back({evidence, kSideReach, 1});
+      stages.push_back({choice, kSideColours, 1});
+    }
+    stages.push_back({SweepStep::kAccept, 0, 1});
+  } else {
+    stages.push_back({SweepStep::kAccept, median, 1});
+  }
   return stages;
 }
 

@@ -20,10 +20,15 @@ enum class SweepStep {
   kMeans,        ///< along rays
   kMeanGradients,
   kSlopesAgain,
-  kLastLook,    ///< scores of all views, against the means
-  kBeside,      ///< what lies beside jumps
-  kLookBehind,  ///< with the best half of the views
-  kAccept       ///< median, radiance, propagation
+  kLastLook,      ///< scores of all views, against the means
+  kBeside,        ///< what lies beside jumps
+  kLookBehind,    ///< with the best half of the views
+  kLastMedian,    ///< of the winners
+  kSideEvidence,  ///< of pixels beside jumps
+  kChooseSides,
+  kSideEvidenceAgain,  ///< beside the jumps as they are now
+  kChooseSidesAgain,
+  kAccept  ///< median where it was not the last one, radiance, propagation
 };
 
 /// A step of the sweep over a view and how far it lags.

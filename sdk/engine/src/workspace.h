@@ -253,6 +253,16 @@ class Workspace {
   virtual void step_back(RowRange rows, float farther, const Map<float>& winners,
                          const Map<float>& contrast, const Map<float>& best, const Map<float>& own,
                          const Map<float>& disparity, const Map<float>& confidence) = 0;
+  /// Beside jumps of the estimates, how much more a pixel's rays speak for the nearer side than for
+  /// the farther one; NaN elsewhere, and where nothing is to do. jump: between estimates within 2
+  /// px. Looks at kSideReach rows around.
+  virtual void side_evidence(int ref, RowRange rows, float jump, const Map<std::uint8_t>& todo,
+                             const Map<float>& disparity, const Map<float>& evidence) = 0;
+  /// The same estimates, but pixels that belong to the other side by this evidence and by their
+  /// colours have that one's nearest. Looks at kSideColours rows around.
+  virtual void choose_sides(int ref, RowRange rows, float jump, const Map<float>& disparity,
+                            const Map<float>& confidence, const Map<float>& evidence,
+                            const Map<float>& chosen, const Map<float>& chosen_confidence) = 0;
   /// tolerance: colour distance; infinite makes it a plain median that needs no band.
   virtual void bilateral_median(int ref, RowRange rows, int radius, float tolerance,
                                 const Map<float>& in, const Map<float>& out) = 0;

@@ -19,7 +19,7 @@ struct EdgeOptions {
 };
 
 /// Bandwidths of clean pictures.
-inline constexpr float kLeastBandwidth = 0.02f, kLeastGradientBandwidth = 0.003f;
+inline constexpr float kLeastBandwidth = 0.014f, kLeastGradientBandwidth = 0.003f;
 
 /// Density score S (eq. 3–5) of a hypothesis.
 struct ScoreOptions {
@@ -65,6 +65,9 @@ struct SupportOptions {
   /// Beside silhouettes at level 0, a third look with the best half of the views. Needs `slanted`
   /// and ScoreOptions::gradient.
   bool half_planes = false;
+  /// A last pass at level 0 that decides for every pixel beside a jump which side it belongs to, by
+  /// its own rays and colours. Needs `slanted` and ScoreOptions::gradient.
+  bool choose_sides = false;
   /// A scan-line step (semi-global matching, Hirschmüller 2008) on the supported scores of level 0:
   /// a neighbour may differ by two hypotheses at small_price, by any number at jump_price, which
   /// falls with the colour difference. Needs radius > 0.
