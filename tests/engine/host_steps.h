@@ -141,6 +141,22 @@ class HostSteps {
     workspace_->bilateral_median(ref, rows, radius, tolerance, up(in), result);
     down(result, rows, out);
   }
+  void side_evidence(int ref, RowRange rows, float jump, const StripMap<std::uint8_t>& todo,
+                     const StripMap<float>& disparity, StripMap<float>& evidence) {
+    const auto out = workspace_->make_map<float>(shape_.width, shape_.rows());
+    workspace_->side_evidence(ref, rows, jump, up(todo), up(disparity), out);
+    down(out, rows, evidence);
+  }
+  void choose_sides(int ref, RowRange rows, float jump, const StripMap<float>& disparity,
+                    const StripMap<float>& confidence, const StripMap<float>& evidence,
+                    StripMap<float>& chosen, StripMap<float>& chosen_confidence) {
+    const auto out = workspace_->make_map<float>(shape_.width, shape_.rows());
+    const auto out_confidence = workspace_->make_map<float>(shape_.width, shape_.rows());
+    workspace_->choose_sides(ref, rows, jump, up(disparity), up(confidence), up(evidence), out,
+                             out_confidence);
+    down(out, rows, chosen);
+    down(out_confidence, rows, chosen_confidence);
+  }
   void mean_radiance(int ref, RowRange rows, const StripMap<float>& disparity,
                      StripMap<Radiance>& radiance) {
     const auto out = up(radiance);

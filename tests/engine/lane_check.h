@@ -93,6 +93,9 @@ class LaneCheck {
     bench.reference->slope_fit(2, rows, in, expected);
     bench.opencl->slope_fit(2, rows, in, actual);
     expect_within("slope fit", compare(expected, actual, rows), kSlope);
+    const auto [evidence, choice] = compare_sides(bench, 2, kScore);
+    expect_within("evidence of sides", evidence, kScore);
+    expect_within("choice of sides", choice, 0);
     radiance(bench);
     means(bench);
   }

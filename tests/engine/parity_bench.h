@@ -138,7 +138,8 @@ class ParityBench {
     opencl = std::make_unique<HostSteps>(
         opencl::make_tuned_workspace(sampler_, setup, Device::open().opened(), tuning));
     // No window reaches farther.
-    const int halo = std::max(kSlopeReach, kScanlineReach + options.support.radius) + 3;
+    const int halo =
+        std::max({kSlopeReach, kScanlineReach + options.support.radius, kSideColours}) + 3;
     loaded = rows_of_all(grown(size.rows, halo, size.height));
     fill(views);
     std::vector<int> active(sampler_.num_views());
@@ -221,6 +222,19 @@ class ParityBench {
       for (int u = 0; u < width(); ++u) {
         map.row(v)[u] = float(0.01 * u - 0.02 * v + 0.05 * uniform() + (uniform() < 0.1 ? 1 : 0));
         if (uniform() < 0.2) map.row(v)[u] = kNoEstimate;
+      }
+    return map;
+  }
+  /// Two surfaces whose border runs down the picture in steps, with noise and holes.
+  StripMap<float> stepped_disparity(RowRange rows) {
+    const double low = hypotheses_.value(hypotheses_.count / 4),
+                 high = hypotheses_.value(3 * hypotheses_.count / 4);
+    StripMap<float> map(width(), rows);
+    for (int v = rows.begin; v < rows.end; ++v)
+      for (int u = 0; u < width(); ++u) {
+        const bool near = (u + v / 3) % 11 < 5;
+        map.row(v)[u] = float((near ? high : low) + 0.02 * uniform());
+        if (uniform() < 0.05) map.row(v)[u] = kNoEstimate;
       }
     return map;
   }
@@ -327,6 +341,42 @@ Difference compare_ray_means(ParityBench<S>& bench, int ref, RowRange rows,
       for (int u = 0; u < bench.width(); ++u)
         difference.add(means.row(channels * v + c)[u], actual.row(channels * v + c)[u]);
   return difference;
+}
+
+/// What pixels of view `ref` say about the sides of jumps, and what is chosen by that, on both
+/// workspaces. Few differ: where a place between two pixels is rounded to another one, or an answer
+/// to the other side of the lead.
+template <RaySampler S>
+std::pair<Difference, Difference> compare_sides(ParityBench<S>& bench, int ref, double tolerance) {
+  const RowRange rows = bench.rows(), around = bench.around(kSideColours);
+  const auto disparity = bench.stepped_disparity(bench.around(kSideColours + kSideReach));
+  const auto confidence = bench.random_values(around);
+  const auto todo = bench.random_todo(around);
+  const float jump = 2 * float(bench.hypotheses().step());
+  StripMap<float> expected(bench.width(), around), actual = expected;
+  bench.reference->side_evidence(ref, around, jump, todo, disparity, expected);
+  bench.opencl->side_evidence(ref, around, jump, todo, disparity, actual);
+  const auto differences = [&](const StripMap<float>& a, const StripMap<float>& b,
+                               RowRange compared, Difference& difference) {
+    for (int v = compared.begin; v < compared.end; ++v)
+      for (int u = 0; u < bench.width(); ++u) {
+        if (std::abs(a.row(v)[u] - b.row(v)[u]) > tolerance)
+          ++difference.values, ++difference.apart;
+        else
+          difference.add(a.row(v)[u], b.row(v)[u]);
+      }
+  };
+  Difference evidence, choice;
+  differences(expected, actual, around, evidence);
+  StripMap<float> chosen(bench.width(), rows), chosen_confidence = chosen, other = chosen,
+                                               other_confidence = chosen;
+  bench.reference->choose_sides(ref, rows, jump, disparity, confidence, expected, chosen,
+                                chosen_confidence);
+  bench.opencl->choose_sides(ref, rows, jump, disparity, confidence, expected, other,
+                             other_confidence);
+  differences(chosen, other, rows, choice);
+  differences(chosen_confidence, other_confidence, rows, choice);
+  return {evidence, choice};
 }
 
 /// Scores of all pixels to do, those beyond their bounds too. `unstable`: larger differences are

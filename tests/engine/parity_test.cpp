@@ -189,6 +189,18 @@ TYPED_TEST(Parity, FirstLookAtSomeOfManyViews) {
   }
 }
 
+TYPED_TEST(Parity, SidesOfJumps) {
+  for (const ParityCase& size : parity_cases()) {
+    if (size.level > 0) continue;  // a step of the finest level
+    DepthOptions options = auto_options();
+    options.score.bandwidth = 0.1f;
+    ParityBench<TypeParam> bench(size, options);
+    const auto [evidence, choice] = compare_sides(bench, 2, kScore);
+    this->expect_within("evidence of sides", evidence, kScore);
+    this->expect_within("choice of sides", choice, 0);
+  }
+}
+
 TYPED_TEST(Parity, RayMeansAndWhatIsScoredAgainstThem) {
   for (const ParityCase& size : parity_cases()) {
     DepthOptions options = auto_options();

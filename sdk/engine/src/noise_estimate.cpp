@@ -146,7 +146,7 @@ NoiseEstimate estimate_noise(const LightField& light_field, const HypothesisRang
 
 void apply_noise(const NoiseEstimate& noise, DepthOptions& options) {
   options.score.bandwidth = std::max(kLeastBandwidth, float(4 * noise.colour));
-  options.score.gradient_bandwidth = std::max(kLeastGradientBandwidth, float(2.5 * noise.gradient));
+  options.score.gradient_bandwidth = std::max(kLeastGradientBandwidth, float(2 * noise.gradient));
   options.support.sigma_colour = float(std::max(0.03, 2 * noise.colour));
 }
 
