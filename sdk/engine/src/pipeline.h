@@ -81,6 +81,11 @@ class Pipeline {
   void grow_todo();
   void score(int view, RowRange rows, ScoreViews views, const Map<std::uint8_t>& todo,
              const Map<HypothesisBounds>& bounds);
+  /// From now on a volume holds these rows; what it has of them stays.
+  void hold_scores(int volume, RowRange rows);
+  /// Of those of the rows that a volume does not hold; then it holds `held`.
+  void score_more(int volume, RowRange held, int view, RowRange rows, ScoreViews views,
+                  const Map<std::uint8_t>& todo, const Map<HypothesisBounds>& bounds);
   /// Of all rows, whatever is held.
   void score_anew(int view, RowRange rows, ScoreViews views, const Map<std::uint8_t>& todo,
                   const Map<HypothesisBounds>& bounds);
@@ -158,7 +163,7 @@ class Pipeline {
   bool sees_means_ = false;         ///< means stand for the pixels of the view that is worked on
   std::vector<SweepStage> stages_;  ///< of the view that is worked on
   std::vector<int> progress_of_stages_;  ///< rows that each of them has done
-  RowRange first_scores_;                ///< rows that the scores of the first look are held of
+  std::array<RowRange, 3> held_scores_;  ///< rows that volumes of scores hold
   std::array<std::shared_ptr<Memory>, 4> strips_;
   std::shared_ptr<Memory> tuple_memory_;
   std::vector<RayTuple> fresh_tuples_;  ///< being read
