@@ -78,6 +78,11 @@ class Pipeline {
   void grow_todo();
   void score(int view, RowRange rows, ScoreViews views, const Map<std::uint8_t>& todo,
              const Map<HypothesisBounds>& bounds);
+  /// From now on a volume holds these rows; what it has of them stays.
+  void hold_scores(int volume, RowRange rows);
+  /// Of those of the rows that a volume does not hold; then it holds `held`.
+  void score_more(int volume, RowRange held, int view, RowRange rows, ScoreViews views,
+                  const Map<std::uint8_t>& todo, const Map<HypothesisBounds>& bounds);
   /// Of all rows, whatever is held.
   void score_anew(int view, RowRange rows, ScoreViews views, const Map<std::uint8_t>& todo,
                   const Map<HypothesisBounds>& bounds);
@@ -183,7 +188,7 @@ class Pipeline {
   std::vector<SweepStage> stages_;    ///< of the view that is worked on
   std::vector<RowRange> stage_rows_;  ///< that each of them does
   std::vector<int> progress_of_stages_;  ///< where each of them is
-  RowRange first_scores_;                ///< rows that the scores of the first look are held of
+  std::array<RowRange, 3> held_scores_;  ///< rows that volumes of scores hold
   std::array<std::shared_ptr<Memory>, 4> strips_;
   std::shared_ptr<Memory> tuple_memory_;
   std::vector<RayTuple> fresh_tuples_;  ///< being read

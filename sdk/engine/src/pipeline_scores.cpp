@@ -14,8 +14,9 @@ constexpr float kJump = 7, kFarther = 3;
 // Samples that are scored at once: between pieces a run can be stopped, and says how far it is.
 constexpr double kSamplesAtOnce = 1e9;
 
-/// The volumes of scores: those of the first and the slanted look, and of looks that score anew.
-constexpr int kFirstScores = 0, kNewScores = 1;
+/// The volumes of scores: those of the first and the slanted look, of looks that score anew, and of
+/// the last look.
+constexpr int kFirstScores = 0, kNewScores = 1, kLastScores = 2;
 
 bool sees_means(SweepStep step) {
   return step == SweepStep::kSlopesAgain || step == SweepStep::kLastLook ||
@@ -36,18 +37,17 @@ void Pipeline::sweep(int active_idx) {
   for (const RowRange rows : stage_rows_) progress_of_stages_.push_back(rows.begin);
   std::vector<int>& done = progress_of_stages_;
   grow_todo();
-  workspace_.hold_scores(kFirstScores, {});
-  workspace_.hold_scores(kNewScores, {});
-  first_scores_ = {};
+  for (int volume = 0; volume < int(held_scores_.size()); ++volume) hold_scores(volume, {});
   while (done.back() < stage_rows_.back().end) {
     for (std::size_t i = 0; i < stages_.size(); ++i) {
       const SweepStage& stage = stages_[i];
       const int last = stage_rows_[i].end;
-      int end = std::min(done[0] + plan.strip_rows, last);
-      if (i > 0)
-        end = done[i - 1] == stage_rows_[i - 1].end
-                  ? last
-                  : std::min((done[i - 1] - stage.reach) / stage.multiple * stage.multiple, last);
+      int possible = last;
+      if (i > 0 && done[i - 1] < stage_rows_[i - 1].end)
+        possible = std::min((done[i - 1] - stage.reach) / stage.multiple * stage.multiple, last);
+      // At the end of the view a stage has what it lagged before it, too: no more at once than the
+      // plan has memory for.
+      const int end = std::min(possible, done[i] + plan.strip_rows);
       if (end <= done[i]) continue;
       control_.throw_if_cancelled();
       see_means(options_.score.ray_mean && sees_means(stage.step));
@@ -143,13 +143,25 @@ void Pipeline::score(int view, RowRange rows, ScoreViews views, const Map<std::u
   }
 }
 
+void Pipeline::hold_scores(int volume, RowRange rows) {
+  workspace_.hold_scores(volume, rows);
+  held_scores_[volume] = rows;
+}
+
+void Pipeline::score_more(int volume, RowRange held, int view, RowRange rows, ScoreViews views,
+                          const Map<std::uint8_t>& todo, const Map<HypothesisBounds>& bounds) {
+  const int wanted = std::max(held_scores_[volume].end, rows.begin);
+  hold_scores(volume, held);
+  score(view, {wanted, rows.end}, views, todo, bounds);
+}
+
 void Pipeline::score_anew(int view, RowRange rows, ScoreViews views, const Map<std::uint8_t>& todo,
                           const Map<HypothesisBounds>& bounds) {
   // In one strip nothing asks for the scores of the first look any more.
   const bool in_one_strip = plan_.levels[level_].strip_rows >= stage_rows_.front().size();
   const int volume = in_one_strip ? kFirstScores : kNewScores;
-  workspace_.hold_scores(volume, {});
-  workspace_.hold_scores(volume, rows);
+  hold_scores(volume, {});
+  hold_scores(volume, rows);
   score(view, rows, views, todo, bounds);
 }
 
@@ -164,16 +176,17 @@ void Pipeline::look(int view, SweepStep step, RowRange rows) {
   const auto& score_bounds = radius > 0 ? of_view_.grown_bounds : of_view_.bounds;
   const ScoreViews views =
       few && step != SweepStep::kLastLook ? ScoreViews::kFirst : ScoreViews::kAll;
-  const bool keeps = plan_.levels[level_].keeps_scores;
+  const LevelPlan& plan = plan_.levels[level_];
+  const bool keeps = plan.keeps_scores;
   if (step == SweepStep::kLook && keeps) {
     // Those below what the slanted look will ask for next go.
-    const int wanted = std::max(first_scores_.end, scored.begin);
-    const RowRange held{std::min(scored.begin, slanted_scores_begin()), scored.end};
-    workspace_.hold_scores(kFirstScores, held);
-    score(view, {wanted, scored.end}, views, score_todo, score_bounds);
-    first_scores_ = held;
+    score_more(kFirstScores, {std::min(scored.begin, slanted_scores_begin()), scored.end}, view,
+               scored, views, score_todo, score_bounds);
   } else if (step == SweepStep::kSlantedLook && keeps) {
-    workspace_.hold_scores(kFirstScores, first_scores_);
+    hold_scores(kFirstScores, held_scores_[kFirstScores]);
+  } else if (step == SweepStep::kLastLook && keeps &&
+             plan.strip_rows < stage_rows_.front().size()) {
+    score_more(kLastScores, scored, view, scored, views, score_todo, score_bounds);
   } else {
     score_anew(view, scored, views, score_todo, score_bounds);
   }
