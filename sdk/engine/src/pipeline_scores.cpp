@@ -13,6 +13,8 @@ namespace {
 constexpr float kJump = 7, kFarther = 3;
 // Samples that are scored at once: between pieces a run can be stopped, and says how far it is.
 constexpr double kSamplesAtOnce = 1e9;
+/// A stage that costs so much is waited for before the one after the next begins.
+constexpr double kCostOfPace = 1;
 
 /// The volumes of scores: those of the first and the slanted look, of looks that score anew, and of
 /// the last look.
@@ -36,6 +38,7 @@ void Pipeline::sweep(int active_idx) {
   progress_of_stages_.clear();
   for (const RowRange rows : stage_rows_) progress_of_stages_.push_back(rows.begin);
   std::vector<int>& done = progress_of_stages_;
+  paced_ = 0;
   grow_todo();
   for (int volume = 0; volume < int(held_scores_.size()); ++volume) hold_scores(volume, {});
   while (done.back() < stage_rows_.back().end) {
@@ -51,22 +54,33 @@ void Pipeline::sweep(int active_idx) {
       if (end <= done[i]) continue;
       control_.throw_if_cancelled();
       see_means(options_.score.ray_mean && sees_means(stage.step));
+      stage_at_work_ = i;
       run_stage(active_idx, stage.step, {done[i], end}, done);
       done[i] = end;
-      report_sweep(active_idx);
+      // A coarser level in one strip is soon done.
+      if (stage.cost >= kCostOfPace && (level_ == 0 || end < last)) keep_pace(sweep_share());
     }
-    if (done.back() < stage_rows_.back().end) workspace_.keep_pace();
   }
   see_means(false);
 }
 
-void Pipeline::report_sweep(int active_idx) {
-  double done = 0, all = 0;
-  for (std::size_t i = 0; i < stages_.size(); ++i) {
-    done += progress_of_stages_[i] - stage_rows_[i].begin;
-    all += stage_rows_[i].size();
-  }
-  report((active_idx + done / all) / double(active_.size()));
+double Pipeline::cost_of_sweep() const {
+  double cost = 0;
+  for (std::size_t i = 0; i < stages_.size(); ++i) cost += stages_[i].cost * stage_rows_[i].size();
+  return cost;
+}
+
+double Pipeline::sweep_share() const {
+  double done = 0;
+  for (std::size_t i = 0; i < stages_.size(); ++i)
+    done += stages_[i].cost * (progress_of_stages_[i] - stage_rows_[i].begin);
+  return done / cost_of_sweep();
+}
+
+void Pipeline::keep_pace(double sweep_share) {
+  workspace_.keep_pace();
+  report(progress_.share(paced_));
+  paced_ = sweep_share;
 }
 
 void Pipeline::run_stage(int active_idx, SweepStep step, RowRange rows,
@@ -128,6 +142,8 @@ void Pipeline::grow_todo() {
 void Pipeline::score(int view, RowRange rows, ScoreViews views, const Map<std::uint8_t>& todo,
                      const Map<HypothesisBounds>& bounds) {
   workspace_.begin_stage("score");
+  // Scores are half of a look.
+  const double part = 0.5 * stages_[stage_at_work_].cost * rows.size() / cost_of_sweep();
   const double samples_per_pixel = double(hypotheses_.count) * double(partners_[view].size());
   for (RowRange piece{rows.begin, rows.begin}; piece.end < rows.end; piece.begin = piece.end) {
     double samples = 0;
@@ -138,7 +154,8 @@ void Pipeline::score(int view, RowRange rows, ScoreViews views, const Map<std::u
     else
       workspace_.density_score(view, piece, todo, bounds);
     if (piece.end == rows.end) continue;
-    workspace_.keep_pace();
+    const double scored = double(piece.end - rows.begin) / rows.size();
+    keep_pace(sweep_share() + scored * part);
     control_.throw_if_cancelled();
   }
 }
