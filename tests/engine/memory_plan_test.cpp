@@ -135,6 +135,31 @@ TEST(MemoryPlan, FewerViewsThatKeepDepthTakeLess) {
       all);
 }
 
+TEST(MemoryPlan, ABandInTheHostsMemoryIsModerate) {
+  const LightField many = described(grid_of_views(17, 17), 1024, 1024);
+  DepthOptions options = auto_options();
+  options.views = {144};
+  options.memory_bytes = 64e9;
+  const MemoryPlan plenty = plan_memory(many, options, kHypotheses, {0, 16e9, true});
+  EXPECT_EQ(plenty.place, Place::kDevice);
+  EXPECT_GT(plenty.forecast.bands, 1);
+  EXPECT_LT(plenty.forecast.memory_bytes, 4400 * kMiB);
+  for (const LevelPlan& level : plenty.levels) {
+    EXPECT_GT(level.window_rows, 0) << "rows are loaded once";
+    EXPECT_TRUE(level.keeps_scores || level.shape.level > 0);
+    EXPECT_GE(level.loaded_rows, level.window_rows);
+  }
+  // Less memory: strips take less, and bands are swept still.
+  options.memory_bytes = plenty.forecast.memory_bytes - 100 * kMiB;
+  const MemoryPlan less = plan_memory(many, options, kHypotheses, {0, 16e9, true});
+  EXPECT_EQ(less.place, Place::kDevice);
+  EXPECT_GT(less.levels.front().window_rows, 0);
+  options.memory_bytes = 64e9;
+  options.views = {40};
+  const LightField few = described(grid_of_views(9, 9), 512, 512);
+  EXPECT_EQ(plan_memory(few, options, kHypotheses, {0, 16e9, true}).forecast.bands, 1);
+}
+
 TEST(MemoryPlan, WhatTheCallerTakesCounts) {
   const LightField light_field = described(row_of_views(20), 640, 480);
   DepthOptions options = auto_options();
@@ -225,7 +250,8 @@ TEST(MemoryPlan, FilesOnlyWhereMemoryDoesNotHoldTheStores) {
       plan_memory(light_field, options, kHypotheses, {0, 1800 * kMiB, true});
   EXPECT_GT(small_buffers.forecast.bands, 4);
   EXPECT_EQ(small_buffers.forecast.disk_bytes, 0);
-  const MemoryPlan large_buffers = plan_memory(light_field, options, kHypotheses, {0, 1e12, true});
+  const MemoryPlan large_buffers =
+      plan_memory(light_field, options, kHypotheses, {1e12, 1e12, false});
   EXPECT_EQ(large_buffers.forecast.bands, 1);
   EXPECT_EQ(large_buffers.place, Place::kDevice);
 }

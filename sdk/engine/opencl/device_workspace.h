@@ -261,7 +261,7 @@ class DeviceWorkspace : public Workspace {
     Scratch scores;
     RowRange rows;
   };
-  std::array<RawScores, 2> volumes_;
+  std::array<RawScores, 3> volumes_;
   RawScores* raw_ = volumes_.data();  ///< that steps work on
   Scratch* winner_scores_ = nullptr;  ///< the scores of score_rows_
   Scratch* chosen_by_ = nullptr;      ///< path_scores_ after a scan-line step, else the scores

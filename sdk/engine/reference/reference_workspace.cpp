@@ -545,7 +545,7 @@ class ReferenceWorkspace : public Workspace {
   BandRing ring_;
   Band band_;
   Band own_;  ///< replaced pixels of the reference view; empty: those of band_
-  std::array<Scores, 2> volumes_;
+  std::array<Scores, 3> volumes_;
   Scores* raw_ = volumes_.data();  ///< that steps work on
   Scores supported_scores_, path_scores_;
   const Scores* winner_scores_ = nullptr;

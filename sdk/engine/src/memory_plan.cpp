@@ -31,6 +31,9 @@ constexpr double kDeviceShare = 0.9;
 constexpr int kSmallestLevel = 10;  // px
 /// Most for the scores of a strip, where its least number of rows takes less.
 constexpr double kLargestVolume = 1024 * kMiB;
+/// Most for a band in the host's memory, where a sweep's least window takes less: more rows at once
+/// gain little, since none is loaded twice.
+constexpr double kLargestBand = 1792 * kMiB;
 
 struct LevelCost {
   double stores = 0;    // bytes of everything that is kept of the level
@@ -140,13 +143,31 @@ class Planner {
   }
 
   double score_bytes(double volume) const {
-    const SupportOptions& support = options_.support;
     const double row = volume_row_bytes(light_field_.width, hypotheses_);
     const int lag = score_lag(0);
-    // Looks that score anew, while the first look's scores wait for the slanted one.
-    const bool twice =
+    const bool strips =
         lag > 0 && volume >= row * (lag + kScanlineBlock) && volume < row * light_field_.height;
-    return (1 + (support.radius > 0) + support.scanline + twice) * volume;
+    if (!strips) return (1 + beside_scores(0)) * volume;
+    // The first look's scores are held of what the slanted one lags, too.
+    const double strip = volume - row * (lag - strip_needs(options_.support, 0).halo);
+    return volume + std::max(strip * (beside_scores(0) + looks_anew()), volume * beside_scores(1));
+  }
+
+  /// What is taken of that by the strips of a plan. The buffers of a level serve the others.
+  double score_bytes(const MemoryPlan& plan) const {
+    double first = 0, others = 0, anew = 0;
+    for (const LevelPlan& level : plan.levels) {
+      const int halo = strip_needs(options_.support, level.shape.level).halo;
+      const int height = level.shape.height;
+      const bool one = level.strip_rows >= height;
+      const int lag = level.keeps_scores && !one ? score_lag(level.shape.level) : halo;
+      const double row = volume_row_bytes(level.shape.width, hypotheses_);
+      const double strip = row * std::min(level.strip_rows + halo, height);
+      first = std::max(first, row * std::min(level.strip_rows + lag, height));
+      others = std::max(others, strip * beside_scores(level.shape.level));
+      if (level.keeps_scores && !one) anew = std::max(anew, strip * looks_anew());
+    }
+    return first + others + anew;
   }
 
   /// Maps of one view: what is to do and its bounds (twice with support), disparity, confidence,
@@ -199,18 +220,16 @@ class Planner {
       level.strip_rows =
           held >= shape.height ? shape.height : std::max(free / needs.multiple, 1) * needs.multiple;
       const LevelCost cost = cost_of(shape, light_field_, options_, active_, band_views_, staged);
-      // One sweep loads pixels once and holds what its stages lag; else every stage loads its own.
-      const auto stages = sweep_stages(options_, shape.level, int(band_views_));
-      const auto reads = [&](int held, double times) {
-        const int rows = fit_band(shape, cost, room, needs.multiple, held);
-        const double loads = rows > 0 ? std::ceil(double(shape.height) / rows) : 0;
-        return std::pair(rows, rows > 0 ? times * loads * loaded_rows(shape, rows, held)
-                                        : std::numeric_limits<double>::infinity());
-      };
-      const int stage_lag = sweep_lag(stages);
-      const auto swept = reads(stage_lag, 1), staged_reads = reads(0, double(stages.size()));
-      const bool sweeps = swept.second <= staged_reads.second;
-      level.band_rows = sweeps ? swept.first : staged_reads.first;
+      // One sweep loads every row once and holds what its stages lag; where that doesn't fit every
+      // stage loads its own.
+      const int stage_lag = sweep_lag(sweep_stages(options_, shape.level, int(band_views_)));
+      const double moderate =
+          std::max(kLargestBand, band_bytes(shape, cost, 2 * kScanlineBlock, stage_lag));
+      level.band_rows =
+          fit_band(shape, cost, device_.shares_host_memory ? std::min(room, moderate) : room,
+                   needs.multiple, stage_lag);
+      const bool sweeps = level.band_rows > 0;
+      if (!sweeps) level.band_rows = fit_band(shape, cost, room, needs.multiple, 0);
       if (level.band_rows == 0) return std::nullopt;
       const int held_lag = sweeps ? stage_lag : 0;
       peak_band = std::max(peak_band, band_bytes(shape, cost, level.band_rows, held_lag));
@@ -221,7 +240,10 @@ class Planner {
       result.levels.push_back(level);
     }
     const double bands_on_host = device_.shares_host_memory ? device_.devices * peak_band : 0;
-    result.forecast.memory_bytes = fixed + bands_on_host + on_host;
+    const double scores_on_host =
+        device_.shares_host_memory ? device_.devices * (score_bytes(result) - score_bytes(volume))
+                                   : 0;
+    result.forecast.memory_bytes = fixed + scores_on_host + bands_on_host + on_host;
     result.compiler_bytes = compiler_bytes();
     // Pictures that were kept from the first look (kept_pictures.h) may take a third of it.
     const double free_for_decoding =
@@ -232,6 +254,20 @@ class Planner {
     result.forecast.bands = (light_field_.height + first - 1) / first;
     return result;
   }
+
+  /// With the most for scores that leaves room for a sweep; where none does, with the usual.
+  std::optional<MemoryPlan> best_plan(double limit, Place place) const {
+    const double usual = usual_volume(limit);
+    auto first = plan(limit, usual, place);
+    for (double volume = usual; !first || !sweeps(*first);) {
+      if (volume <= keeping_volume()) break;
+      volume = std::max(volume / 2, keeping_volume());
+      auto other = plan(limit, volume, place);
+      if (other && sweeps(*other)) return other;
+    }
+    return first;
+  }
+  static bool sweeps(const MemoryPlan& plan) { return plan.levels.front().window_rows > 0; }
 
   /// The least limit under which there is a plan.
   double least_limit() const {
@@ -244,15 +280,24 @@ class Planner {
     return fixed_bytes(least_volume()) + device_.devices * peak_band;
   }
 
-  /// With all stores and one band in memory.
-  double everything(double volume) const {
-    return fixed_bytes(volume) + store_bytes() +
-           light_field_.height *
-               cost_of(shapes_.front(), light_field_, options_, active_, band_views_, false)
-                   .band_row;
+  /// With all stores in memory, and as much as a run can use.
+  double everything() const {
+    const double plenty = std::numeric_limits<double>::infinity();
+    for (const Place place : {Place::kDevice, Place::kHost})
+      if (const auto all = plan(plenty, usual_volume(plenty), place))
+        return all->forecast.memory_bytes;
+    return fixed_bytes(usual_volume(plenty)) + store_bytes();
   }
 
  private:
+  /// Volumes beside that of the scores as they come: with support, along scan-lines.
+  int beside_scores(int level) const {
+    return (options_.support.radius > 0) + (options_.support.scanline && level == 0);
+  }
+  /// Looks that score anew, while the first look's scores wait for the slanted one.
+  int looks_anew() const {
+    return few_first(options_, int(band_views_)) + options_.support.half_planes;
+  }
   double device_memory() const {
     return device_.shares_host_memory ? std::numeric_limits<double>::infinity()
                                       : kDeviceShare * device_.memory;
@@ -379,13 +424,14 @@ MemoryPlan plan_memory(const LightField& light_field, const DepthOptions& option
   const double usual = planner.usual_volume(limit);
 
   // In files only where memory does not hold the stores, or leaves so little that a view would be
-  // walked in many more bands.
+  // walked in many more bands, each stage by itself.
   constexpr int kFewBands = 4, kManyMore = 4;
-  auto in_files = planner.plan(limit, usual, Place::kFile);
+  auto in_files = planner.best_plan(limit, Place::kFile);
   std::optional<MemoryPlan> in_memory;
   for (const Place place : {Place::kDevice, Place::kHost}) {
-    in_memory = planner.plan(limit, usual, place);
-    if (in_memory) break;
+    auto other = planner.best_plan(limit, place);
+    if (other && (!in_memory || Planner::sweeps(*other))) in_memory = std::move(other);
+    if (in_memory && Planner::sweeps(*in_memory)) break;
   }
   for (const double volume : {planner.keeping_volume(), planner.least_volume()})
     if (!in_memory && !in_files && volume < usual)
@@ -401,15 +447,15 @@ MemoryPlan plan_memory(const LightField& light_field, const DepthOptions& option
                     " MiB is too little for one row of all " +
                     std::to_string(light_field.num_views()) + " views; give it at least " +
                     std::to_string(int(std::ceil(planner.least_limit() / kMiB))) + " MiB");
-  const bool keep =
-      in_memory && (!in_files || in_memory->forecast.bands <=
-                                     std::max(kFewBands, kManyMore * in_files->forecast.bands));
+  const bool keep = in_memory && (!in_files || Planner::sweeps(*in_memory) ||
+                                  in_memory->forecast.bands <=
+                                      std::max(kFewBands, kManyMore * in_files->forecast.bands));
   MemoryPlan chosen = keep ? *in_memory : *in_files;
   if (!keep)
     chosen.work_folder = options.work_folder.empty()
                              ? temporary_folder(" or name another folder by --work")
                              : options.work_folder;
-  chosen.forecast.memory_all_bytes = planner.everything(usual);
+  chosen.forecast.memory_all_bytes = planner.everything();
   return chosen;
 }
 

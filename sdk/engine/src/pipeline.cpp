@@ -38,7 +38,7 @@ void Pipeline::run(Partition& partition) {
     begin_level();
     find_edges_and_downsample();
     for (int i = 0; i < int(active_.size()); ++i) {
-      report(double(i) / double(active_.size()));
+      report(progress_.share(1));
       if (!find_todo(i)) continue;
       sweep(i);
       propagate_to_others(i);
@@ -103,6 +103,7 @@ void Pipeline::begin_level() {
   workspace_.begin_level(shape(), plan_.levels[level_].loaded_rows);
   loaded_sweep_ = {};
   loaded_views_.clear();
+  progress_ = LevelProgress(int(active), double(width) * rows().own.size());
   make_maps();
 }
 

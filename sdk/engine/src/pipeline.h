@@ -10,6 +10,7 @@
 
 #include "decoded_pictures.h"
 #include "gigaray/samplers/any_sampler.h"
+#include "level_progress.h"
 #include "level_rows.h"
 #include "partition.h"
 #include "run.h"
@@ -79,6 +80,11 @@ class Pipeline {
   void grow_todo();
   void score(int view, RowRange rows, ScoreViews views, const Map<std::uint8_t>& todo,
              const Map<HypothesisBounds>& bounds);
+  /// From now on a volume holds these rows; what it has of them stays.
+  void hold_scores(int volume, RowRange rows);
+  /// Of those of the rows that a volume does not hold; then it holds `held`.
+  void score_more(int volume, RowRange held, int view, RowRange rows, ScoreViews views,
+                  const Map<std::uint8_t>& todo, const Map<HypothesisBounds>& bounds);
   /// Of all rows, whatever is held.
   void score_anew(int view, RowRange rows, ScoreViews views, const Map<std::uint8_t>& todo,
                   const Map<HypothesisBounds>& bounds);
@@ -144,7 +150,11 @@ class Pipeline {
   }
   const LevelShape& shape() const { return plan_.levels[level_].shape; }
   void report(double done);
-  void report_sweep(int active_idx);
+  /// The part of the sweep that is enqueued.
+  double sweep_share() const;
+  double cost_of_sweep() const;
+  /// Waits for what was enqueued at the last call, and reports that.
+  void keep_pace(double sweep_share);
   /// A map of some rows alone; strips of different slots can be used together.
   template <class T>
   Map<T> strip(int slot, RowRange rows) {
@@ -188,7 +198,10 @@ class Pipeline {
   std::vector<SweepStage> stages_;    ///< of the view that is worked on
   std::vector<RowRange> stage_rows_;  ///< that each of them does
   std::vector<int> progress_of_stages_;  ///< where each of them is
-  RowRange first_scores_;                ///< rows that the scores of the first look are held of
+  std::size_t stage_at_work_ = 0;
+  LevelProgress progress_;
+  double paced_ = 0;  ///< part of the sweep that was enqueued at the last keep_pace()
+  std::array<RowRange, 3> held_scores_;  ///< rows that volumes of scores hold
   std::array<std::shared_ptr<Memory>, 4> strips_;
   std::shared_ptr<Memory> tuple_memory_;
   std::vector<RayTuple> fresh_tuples_;  ///< being read

@@ -13,9 +13,12 @@ namespace {
 constexpr float kJump = 7, kFarther = 3;
 // Samples that are scored at once: between pieces a run can be stopped, and says how far it is.
 constexpr double kSamplesAtOnce = 1e9;
+/// A stage that costs so much is waited for before the one after the next begins.
+constexpr double kCostOfPace = 1;
 
-/// The volumes of scores: those of the first and the slanted look, and of looks that score anew.
-constexpr int kFirstScores = 0, kNewScores = 1;
+/// The volumes of scores: those of the first and the slanted look, of looks that score anew, and of
+/// the last look.
+constexpr int kFirstScores = 0, kNewScores = 1, kLastScores = 2;
 
 bool sees_means(SweepStep step) {
   return step >= SweepStep::kSlopesAgain && step < SweepStep::kAccept;
@@ -34,38 +37,49 @@ void Pipeline::sweep(int active_idx) {
   progress_of_stages_.clear();
   for (const RowRange rows : stage_rows_) progress_of_stages_.push_back(rows.begin);
   std::vector<int>& done = progress_of_stages_;
+  paced_ = 0;
   grow_todo();
-  workspace_.hold_scores(kFirstScores, {});
-  workspace_.hold_scores(kNewScores, {});
-  first_scores_ = {};
+  for (int volume = 0; volume < int(held_scores_.size()); ++volume) hold_scores(volume, {});
   while (done.back() < stage_rows_.back().end) {
     for (std::size_t i = 0; i < stages_.size(); ++i) {
       const SweepStage& stage = stages_[i];
       const int last = stage_rows_[i].end;
-      int end = std::min(done[0] + plan.strip_rows, last);
-      if (i > 0)
-        end = done[i - 1] == stage_rows_[i - 1].end
-                  ? last
-                  : std::min((done[i - 1] - stage.reach) / stage.multiple * stage.multiple, last);
+      int possible = last;
+      if (i > 0 && done[i - 1] < stage_rows_[i - 1].end)
+        possible = std::min((done[i - 1] - stage.reach) / stage.multiple * stage.multiple, last);
+      // At the end of the view a stage has what it lagged before it, too: no more at once than the
+      // plan has memory for.
+      const int end = std::min(possible, done[i] + plan.strip_rows);
       if (end <= done[i]) continue;
       control_.throw_if_cancelled();
       see_means(options_.score.ray_mean && sees_means(stage.step));
+      stage_at_work_ = i;
       run_stage(active_idx, stage.step, {done[i], end}, done);
       done[i] = end;
-      report_sweep(active_idx);
+      // A coarser level in one strip is soon done.
+      if (stage.cost >= kCostOfPace && (level_ == 0 || end < last)) keep_pace(sweep_share());
     }
-    if (done.back() < stage_rows_.back().end) workspace_.keep_pace();
   }
   see_means(false);
 }
 
-void Pipeline::report_sweep(int active_idx) {
-  double done = 0, all = 0;
-  for (std::size_t i = 0; i < stages_.size(); ++i) {
-    done += progress_of_stages_[i] - stage_rows_[i].begin;
-    all += stage_rows_[i].size();
-  }
-  report((active_idx + done / all) / double(active_.size()));
+double Pipeline::cost_of_sweep() const {
+  double cost = 0;
+  for (std::size_t i = 0; i < stages_.size(); ++i) cost += stages_[i].cost * stage_rows_[i].size();
+  return cost;
+}
+
+double Pipeline::sweep_share() const {
+  double done = 0;
+  for (std::size_t i = 0; i < stages_.size(); ++i)
+    done += stages_[i].cost * (progress_of_stages_[i] - stage_rows_[i].begin);
+  return done / cost_of_sweep();
+}
+
+void Pipeline::keep_pace(double sweep_share) {
+  workspace_.keep_pace();
+  report(progress_.share(paced_));
+  paced_ = sweep_share;
 }
 
 void Pipeline::run_stage(int active_idx, SweepStep step, RowRange rows,
@@ -142,6 +156,8 @@ void Pipeline::grow_todo() {
 void Pipeline::score(int view, RowRange rows, ScoreViews views, const Map<std::uint8_t>& todo,
                      const Map<HypothesisBounds>& bounds) {
   workspace_.begin_stage("score");
+  // Scores are half of a look.
+  const double part = 0.5 * stages_[stage_at_work_].cost * rows.size() / cost_of_sweep();
   const double samples_per_pixel = double(hypotheses_.count) * double(partners_[view].size());
   for (RowRange piece{rows.begin, rows.begin}; piece.end < rows.end; piece.begin = piece.end) {
     double samples = 0;
@@ -152,9 +168,22 @@ void Pipeline::score(int view, RowRange rows, ScoreViews views, const Map<std::u
     else
       workspace_.density_score(view, piece, todo, bounds);
     if (piece.end == rows.end) continue;
-    workspace_.keep_pace();
+    const double scored = double(piece.end - rows.begin) / rows.size();
+    keep_pace(sweep_share() + scored * part);
     control_.throw_if_cancelled();
   }
+}
+
+void Pipeline::hold_scores(int volume, RowRange rows) {
+  workspace_.hold_scores(volume, rows);
+  held_scores_[volume] = rows;
+}
+
+void Pipeline::score_more(int volume, RowRange held, int view, RowRange rows, ScoreViews views,
+                          const Map<std::uint8_t>& todo, const Map<HypothesisBounds>& bounds) {
+  const int wanted = std::max(held_scores_[volume].end, rows.begin);
+  hold_scores(volume, held);
+  score(view, {wanted, rows.end}, views, todo, bounds);
 }
 
 void Pipeline::score_anew(int view, RowRange rows, ScoreViews views, const Map<std::uint8_t>& todo,
@@ -162,8 +191,8 @@ void Pipeline::score_anew(int view, RowRange rows, ScoreViews views, const Map<s
   // In one strip nothing asks for the scores of the first look any more.
   const bool in_one_strip = plan_.levels[level_].strip_rows >= stage_rows_.front().size();
   const int volume = in_one_strip ? kFirstScores : kNewScores;
-  workspace_.hold_scores(volume, {});
-  workspace_.hold_scores(volume, rows);
+  hold_scores(volume, {});
+  hold_scores(volume, rows);
   score(view, rows, views, todo, bounds);
 }
 
@@ -178,16 +207,17 @@ void Pipeline::look(int view, SweepStep step, RowRange rows) {
   const auto& score_bounds = radius > 0 ? of_view_.grown_bounds : of_view_.bounds;
   const ScoreViews views =
       few && step != SweepStep::kLastLook ? ScoreViews::kFirst : ScoreViews::kAll;
-  const bool keeps = plan_.levels[level_].keeps_scores;
+  const LevelPlan& plan = plan_.levels[level_];
+  const bool keeps = plan.keeps_scores;
   if (step == SweepStep::kLook && keeps) {
     // Those below what the slanted look will ask for next go.
-    const int wanted = std::max(first_scores_.end, scored.begin);
-    const RowRange held{std::min(scored.begin, slanted_scores_begin()), scored.end};
-    workspace_.hold_scores(kFirstScores, held);
-    score(view, {wanted, scored.end}, views, score_todo, score_bounds);
-    first_scores_ = held;
+    score_more(kFirstScores, {std::min(scored.begin, slanted_scores_begin()), scored.end}, view,
+               scored, views, score_todo, score_bounds);
   } else if (step == SweepStep::kSlantedLook && keeps) {
-    workspace_.hold_scores(kFirstScores, first_scores_);
+    hold_scores(kFirstScores, held_scores_[kFirstScores]);
+  } else if (step == SweepStep::kLastLook && keeps &&
+             plan.strip_rows < stage_rows_.front().size()) {
+    score_more(kLastScores, scored, view, scored, views, score_todo, score_bounds);
   } else {
     score_anew(view, scored, views, score_todo, score_bounds);
   }

@@ -72,6 +72,7 @@ bool Pipeline::find_todo(int active_idx) {
     std::swap(maps.todo, maps.more_scratch);
   }
   todo_counts_ = workspace_.count_rows(maps.todo);
+  progress_.begin_view(count(todo_counts_, own));
   return partition_->sum(count(todo_counts_, own)) > 0;
 }
 

@@ -22,12 +22,16 @@ std::vector<SweepStage> sweep_stages(const DepthOptions& options, int level, int
   const bool finest = level == 0, again = finest && support.slanted;
   const bool scanline = finest && support.scanline;
   const int looks_at = scanline ? kScanlineReach : 0, multiple = scanline ? kScanlineBlock : 1;
-  std::vector<SweepStage> stages{{SweepStep::kLook, 0, multiple}};
+  // Nearly all of it is scores: of all views, of some, or beside jumps.
+  const double look_cost = again && few_first(options, partners) ? 3 : 5, last_cost = 5;
+  const double slanted_cost = 2.5, behind_cost = 1;
+  std::vector<SweepStage> stages{{SweepStep::kLook, 0, multiple, look_cost}};
   if (again) {
     stages.push_back({SweepStep::kSmooth, median, 1});
     stages.push_back({SweepStep::kSlopes, kSlopeReach, 1});
     // Its lag keeps what smooths again away from what the slopes before still look at.
-    stages.push_back({SweepStep::kSlantedLook, std::max(looks_at, kSlopeReach + 1), multiple});
+    stages.push_back(
+        {SweepStep::kSlantedLook, std::max(looks_at, kSlopeReach + 1), multiple, slanted_cost});
     // Where the last look has to score anew anyway, or takes very many views, a few do for the
     // first.
     if (few_first(options, partners)) {
@@ -38,11 +42,11 @@ std::vector<SweepStage> sweep_stages(const DepthOptions& options, int level, int
       }
       // A row more: the slanted look still looks at the slopes before.
       stages.push_back({SweepStep::kSlopesAgain, kSlopeReach + 1, 1});
-      stages.push_back({SweepStep::kLastLook, looks_at + support.radius + 1, multiple});
+      stages.push_back({SweepStep::kLastLook, looks_at + support.radius + 1, multiple, last_cost});
     }
     if (support.half_planes) {
       stages.push_back({SweepStep::kBeside, kBesideJump + 1, 1});
-      stages.push_back({SweepStep::kLookBehind, 2 * support.radius, 1});
+      stages.push_back({SweepStep::kLookBehind, 2 * support.radius, 1, behind_cost});
     }
   }
   if (again && support.choose_sides) {

@@ -34,8 +34,9 @@ enum class SweepStep {
 /// A step of the sweep over a view and how far it lags.
 struct SweepStage {
   SweepStep step = SweepStep::kLook;
-  int reach = 0;     ///< rows beyond its own that it wants of the stage before
-  int multiple = 1;  ///< its first row is a multiple of this
+  int reach = 0;      ///< rows beyond its own that it wants of the stage before
+  int multiple = 1;   ///< its first row is a multiple of this
+  double cost = 0.1;  ///< of a row, as measured, in relation to the others
 };
 
 /// Where the nearer surface can hide a point from some views, px.

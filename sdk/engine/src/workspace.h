@@ -207,7 +207,7 @@ class Workspace {
   virtual std::vector<int> count_estimates(const Map<float>& estimates) = 0;
 
   // ---- Scores -----------------------------------------------------------------------------------
-  /// From now on the scores of these rows are held in one of two volumes, 0 or 1; what it has of
+  /// From now on the scores of these rows are held in one of three volumes, from 0; what it has of
   /// them stays. Steps on scores work on it.
   virtual void hold_scores(int volume, RowRange rows) = 0;
   /// Scores of `rows`, which are held, where todo: the paper's,
