@@ -72,7 +72,7 @@ TEST(ScoreMembers, OfHalfPlanesLeaveOutWhatTheScoreLeavesOut) {
   const auto all = score_members(sampler, 144, ScoreViews::kAll, range);
   const auto halves = score_members(sampler, 144, ScoreViews::kHalfPlanes, range);
   for (int view = 0; view < 289; ++view) EXPECT_EQ(all[view] != 0, halves[view] != 0) << view;
-  EXPECT_EQ(halves[144], 0xff);
+  EXPECT_EQ(all[144], 0) << "the reference agrees with itself under any hypothesis";
 }
 
 TEST(RayMean, TakesTheNoiseOffButNotTheOccluder) {
@@ -117,11 +117,29 @@ TEST(RobustScore, AnOccluderDoesNotScoreByItsGradient) {
   const reference::Sample own{0.5f, 0.5f, 0.5f, 0.01f, 0};
   EXPECT_NEAR(reference::robust_kernel(own, own, score), 1, kRounding);
   reference::Sample other = own;
-  other[0] += 2 * score.bandwidth;
+  other[0] += TAIL_WIDTH * score.bandwidth;
   EXPECT_EQ(reference::robust_kernel(other, own, score), 0) << "same gradient, another colour";
+  other = own;
+  other[0] += 2 * score.bandwidth;
+  EXPECT_LT(reference::robust_kernel(other, own, score), 0.35f) << "in the tail";
   other = own;
   other[3] += 2 * score.gradient_bandwidth;
   EXPECT_NEAR(reference::robust_kernel(other, own, score), 1 - score.gradient_share, kRounding);
+}
+
+TEST(RobustScore, WhatNoOtherViewSeesIsNeitherLikelyNorUnlikely) {
+  const auto views = row_of_views(2);
+  const Band band = flat_band(views, 21, 3);
+  const EpiSampler sampler(views);
+  const ScoreOptions score = auto_options().score;
+  const auto members = score_members(sampler, 0, ScoreViews::kAll, {-1, 4, 3});
+  const auto own = band.pixel(0, 1, 1);
+  const auto at = [&](double h) {
+    return reference::robust_score(band, sampler, 0, Ray{1, 1, h}, own, score, members, 1);
+  };
+  EXPECT_NEAR(at(0), 1, kRounding) << "the other view agrees";
+  const double outside = sampler.locate(0, 1, Ray{1, 1, 4})->u < 0 ? 4 : -4;
+  EXPECT_NEAR(at(outside), UNSEEN_SCORE, kRounding);
 }
 
 /// A strip of one row; every pixel scores `most` at its hypothesis and `other` elsewhere.

@@ -82,8 +82,8 @@ TEST(NoiseEstimate, BandwidthsGrowWithItFromALeastValue) {
   DepthOptions clean = auto_options(), noisy = auto_options();
   apply_noise({0, 0}, clean);
   apply_noise({0.05, 0.02}, noisy);
-  EXPECT_EQ(clean.score.bandwidth, 0.02f);
-  EXPECT_EQ(clean.score.gradient_bandwidth, 0.003f);
+  EXPECT_EQ(clean.score.bandwidth, kLeastBandwidth);
+  EXPECT_EQ(clean.score.gradient_bandwidth, kLeastGradientBandwidth);
   EXPECT_GT(noisy.score.bandwidth, clean.score.bandwidth);
   EXPECT_GT(noisy.score.gradient_bandwidth, clean.score.gradient_bandwidth);
   EXPECT_GT(noisy.support.sigma_colour, clean.support.sigma_colour);

@@ -3,7 +3,7 @@
 // Robust score: kernels around the reference pixel's own values, a triangle with a tail (TAIL_SHARE) of
 // colour and a triangle of the gradient,
 //   K = (1 - share) Kc + share Kg min(1, 4 Kc),
-// averaged over the views. The gate keeps an occluder of another colour from scoring by its gradient.
+// averaged over the other views: the reference agrees with itself under any hypothesis. The gate keeps an occluder of another colour from scoring by its gradient.
 //   band    [row][view][5][stride]: RGB, gx, gy
 //   members [view] bit 0: the view counts; HALF_PLANES 1: bit i: it lies in half-plane i of the camera
 //           positions (view_sets.h)
@@ -52,6 +52,14 @@
 static inline vfloat tailed_kernel(vfloat distance) {
   return (1.0f - TAIL_SHARE) * max(1.0f - distance, (vfloat)(0.0f)) +
          TAIL_SHARE * max(1.0f - (1.0f / TAIL_WIDTH) * distance, (vfloat)(0.0f));
+}
+
+// Mean kernel of the views that see a point. Views that are missing to floor_views say UNSEEN_SCORE; of
+// a half-plane nothing.
+static inline vfloat mean_kernel(vfloat sum, vfloat count, int min_views, float floor_views) {
+  const float unseen = HALF_PLANES ? 0.0f : UNSEEN_SCORE;
+  return score_of(sum + unseen * max(floor_views - count, (vfloat)(0.0f)), count, min_views,
+                  floor_views);
 }
 
 #if SHIFT_ALIKE
@@ -300,9 +308,9 @@ __kernel void robust_score(__global const float* band, const BandParams p, const
           const BlockSums* block = &blocks[TURN(i)];
           vfloat score = (vfloat)(-1.0f);
           for (int part = 0; part < PARTS; ++part)
-            score = max(score, score_of(block->sums[part][UNIT(j)],
-                                        block->whole[part] + block->counts[part][UNIT(j)], min_views,
-                                        floor_views));
+            score = max(score, mean_kernel(block->sums[part][UNIT(j)],
+                                           block->whole[part] + block->counts[part][UNIT(j)],
+                                           min_views, floor_views));
           store_scores(scores + score_index(strip, hypotheses, v - scores_begin, u + j * LANES), hypotheses,
                        &tested[UNIT(j)], begin + i, score);
         }
@@ -367,9 +375,9 @@ __kernel void robust_score(__global const float* taps, const BandParams p, const
         for (int part = 0; part < PARTS; ++part)
           if (PARTS == 1 || members[k] >> part & 1) sums[part] += kernel_value;
       }
-      vfloat score = score_of(sums[0], counts[0], min_views, floor_views);
+      vfloat score = mean_kernel(sums[0], counts[0], min_views, floor_views);
       for (int part = 1; part < PARTS; ++part)
-        score = max(score, score_of(sums[part], counts[part], min_views, floor_views));
+        score = max(score, mean_kernel(sums[part], counts[part], min_views, floor_views));
       store_scores(column, hypotheses, &tested, i, score);
     }
     repeat_ends_of_lanes(column, hypotheses, &tested);

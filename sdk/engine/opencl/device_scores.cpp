@@ -49,7 +49,7 @@ void DeviceWorkspace::density_score(int ref, RowRange rows, const Map<std::uint8
   Buffer& scores = raw_->scores.buffer;
   winner_reads(raw_->scores, raw_->rows);
   const float floor_views = score.floor_views * float(band_.num_views);
-  const int min_views = least_views(band_.num_views);
+  const int min_views = std::max(1, least_views(band_.num_views));
   const LocalMemory staged = kernel.vectors(kernel.staged ? kStagedVectors * band_.num_views : 1);
   const bool packs =
       kernel.staged && kernel.lanes > 1 && !score.cubic && all_views_.rays_shift_alike;
@@ -84,7 +84,8 @@ void DeviceWorkspace::robust_score(int ref, RowRange rows, const Map<std::uint8_
   const ViewSet& members = view_set(ref, views);
   Buffer& scores = raw_->scores.buffer;
   winner_reads(raw_->scores, raw_->rows);
-  const float floor_views = (halves ? kLeastHalfPlane : score.floor_views) * float(members.used);
+  const float share = halves ? kLeastHalfPlane : score.floor_views;
+  const float floor_views = std::max(share * float(members.used), kLeastFloor);
   const OwnPixels own = reference_pixels(ref);
   kernel.kernel.set_args(samples(), band_, strip(ref, rows), own.buffer, own.band, own.view,
                          ways(ref), hypotheses_, buffer_of(todo), buffer_of(bounds), members.buffer,

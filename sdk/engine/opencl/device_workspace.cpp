@@ -279,7 +279,7 @@ void DeviceWorkspace::winner_reads(Scratch& scores, RowRange rows) {
 }
 
 int DeviceWorkspace::least_views(int used) const {
-  return std::max(1, int(std::ceil(setup_.options.score.min_views * float(used))));
+  return int(std::ceil(setup_.options.score.min_views * float(used)));
 }
 
 // ---- What kernels are built with ----------------------------------------------------------------

@@ -7,6 +7,7 @@
 #include <span>
 
 #include "density_score.h"
+#include "kernels/kernel_params.h"
 #include "src/view_sets.h"
 
 namespace gigaray::reference {
@@ -34,15 +35,18 @@ Sample seen_from(const S& sampler, int ref, int other, const Ray& ray, Sample sa
 }
 
 /// Score of a ray with colours `own` under one hypothesis: the mean of the kernels over the views;
-/// -1 when too few see it. parts 1: over the views with bit 0 of their `members`. parts 8: the best
-/// of the means over half-plane i, the views with bit i.
+/// those that are missing to ScoreOptions::floor_views say UNSEEN_SCORE. -1 when too few see it.
+/// parts 1: over the views with bit 0 of their `members`. parts 8: the best of the means over
+/// half-plane i, the views with bit i.
 template <RaySampler S>
 float robust_score(const Band& band, const S& sampler, int ref, const Ray& ray, const Sample& own,
                    const ScoreOptions& options, std::span<const std::uint8_t> members, int parts) {
   const auto used =
       std::count_if(members.begin(), members.end(), [](auto bits) { return bits != 0; });
-  const float least = std::max(1.0f, std::ceil(options.min_views * float(used)));
-  const float floor_views = (parts == 1 ? options.floor_views : kLeastHalfPlane) * float(used);
+  const float least = std::ceil(options.min_views * float(used));
+  const float share = parts == 1 ? options.floor_views : kLeastHalfPlane;
+  const float floor_views = std::max(share * float(used), kLeastFloor);
+  const float unseen = parts == 1 ? UNSEEN_SCORE : 0;
   std::array<float, kHalfPlanes> sums{}, counts{};
   for (int other = 0; other < sampler.num_views(); ++other) {
     if (members[other] == 0) continue;
@@ -59,7 +63,9 @@ float robust_score(const Band& band, const S& sampler, int ref, const Ray& ray, 
   }
   float best = -1;
   for (int i = 0; i < parts; ++i)
-    if (counts[i] >= least) best = std::max(best, sums[i] / std::max(counts[i], floor_views));
+    if (counts[i] >= least)
+      best = std::max(best, (sums[i] + unseen * std::max(floor_views - counts[i], 0.0f)) /
+                                std::max(counts[i], floor_views));
   return best;
 }
 

@@ -30,6 +30,8 @@ inline std::vector<std::uint8_t> spread_views(int num_views, int ref, int wanted
 inline constexpr int kHalfPlanes = 8;
 /// Fewer samples in a half-plane than this share of all views count as this many.
 inline constexpr float kLeastHalfPlane = 1.0f / 3.0f;
+/// Sums are divided by no less.
+inline constexpr float kLeastFloor = 1e-3f;
 
 /// Which of 8 half-planes of camera positions, 45 degrees apart and with their border, each view
 /// lies in as seen from view `ref`: bit i for the half-plane around the direction of i · 45
@@ -61,13 +63,14 @@ std::vector<std::uint8_t> half_planes(const S& sampler, int ref,
   return planes;
 }
 
-/// The views of a ScoreViews as bytes: bit 0, the view counts; for half-planes bit i as there, 0
-/// for a view that is left out.
+/// The other views of a ScoreViews as bytes: bit 0, the view counts; for half-planes bit i as
+/// there, 0 for a view that is left out.
 template <RaySampler S>
 std::vector<std::uint8_t> score_members(const S& sampler, int ref, ScoreViews views,
                                         const HypothesisRange& hypotheses) {
   const int wanted = views == ScoreViews::kFirst ? kFirstViews : kMostViews;
   std::vector<std::uint8_t> members = spread_views(sampler.num_views(), ref, wanted);
+  members[ref] = 0;  // it agrees with itself under any hypothesis
   if (views != ScoreViews::kHalfPlanes) return members;
   const std::vector<std::uint8_t> planes = half_planes(sampler, ref, hypotheses);
   for (std::size_t view = 0; view < members.size(); ++view)
