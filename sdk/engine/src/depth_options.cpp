@@ -117,7 +117,7 @@ DepthOptions auto_options() {
   options.support.half_planes = true;
   options.support.choose_sides = true;
   options.support.scanline = true;
-  options.support.small_price = 0.15f;
+  options.support.small_price = 0.12f;
   options.winner.refine = true;
   options.winner.median_radius = 2;
   options.winner.weigh_by_edge = false;

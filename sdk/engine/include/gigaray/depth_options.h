@@ -19,7 +19,7 @@ struct EdgeOptions {
 };
 
 /// Bandwidths of clean pictures.
-inline constexpr float kLeastBandwidth = 0.014f, kLeastGradientBandwidth = 0.003f;
+inline constexpr float kLeastBandwidth = 0.015f, kLeastGradientBandwidth = 0.003f;
 
 /// Density score S (eq. 3–5) of a hypothesis.
 struct ScoreOptions {
