@@ -155,8 +155,11 @@ TEST_F(EncodeCommand, PhotographsFromAnywhereAreRefused) {
 }
 
 TEST_F(EncodeCommand, AFullDiskLeavesNothing) {
-  expect_refusal("encode made -o x.grl", 1, "x.grl", "can't be written",
-                 "ulimit -f 8; trap '' XFSZ; ");
+  ASSERT_EQ(run("synth planes -o large --samples 1 --views 5 --width 1000 --height 700").exit_code,
+            0);
+  // Files that PoCL compiles from are smaller than 4000 blocks of 512 bytes.
+  expect_refusal("encode large -o x.grl --hypotheses 16", 1, "x.grl", "can't be written",
+                 "ulimit -f 4000; trap '' XFSZ; ");
 }
 
 TEST_F(EncodeCommand, AnInterruptLeavesNothing) {

@@ -81,6 +81,10 @@ TEST(Devices, ListsAreCutAtCommasAndNameNoneTwice) {
   EXPECT_EQ(long(all.size()),
             std::count_if(devices.begin(), devices.end(),
                           [&](const auto& device) { return device.type == select_device().type; }));
+  {
+    const ScopedVariable every("GIGARAY_DEVICE", "all");
+    EXPECT_EQ(select_device().index, all.front().index) << "one of several is the first";
+  }
   const ScopedVariable list_of_one("GIGARAY_DEVICE", "0");
   EXPECT_EQ(select_devices().size(), 1u);
 }

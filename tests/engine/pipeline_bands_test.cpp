@@ -127,6 +127,15 @@ TEST(PipelineBandHeight, OpenClGivesTheSameBitsInAnyBandsAndStrips) {
     expect_bands_alike("opencl", scene(irregular_row(), 35, 103).light_field, options);
     options.support.scanline = false;  // smaller bands
     expect_bands_alike("opencl", scene(row_of_views(4), 45, 37).light_field, options);
+    if (options.support.choose_sides) {
+      // Smaller windows: stages follow each other nearer.
+      DepthOptions near = options;
+      near.support.radius = 3;
+      near.winner.median_radius = 1;
+      expect_bands_alike("opencl", scene(row_of_views(4), 45, 67).light_field, near);
+      near.support.half_planes = false;
+      expect_bands_alike("opencl", scene(row_of_views(4), 45, 67).light_field, near);
+    }
     expect_bands_alike("opencl", scene(irregular_grid(), 31, 33).light_field, options);
   }
 }

@@ -95,7 +95,8 @@ __kernel void side_evidence(__global const float* band, const BandParams p, cons
                             __global const float* own_band, const BandParams own_p,
                             const int own_view, __global const float* rays,
                             __global const uchar* todo, __global const float* disparity,
-                            const float jump, const float bandwidth, __global float* evidence) {
+                            const float jump, const float least, const float most,
+                            const float bandwidth, __global float* evidence) {
   const int u = get_global_id(0), row = get_global_id(1), v = strip.row_begin + row;
   if (u >= strip.width) return;
   const size_t pixel = view_index(strip, row, u);
@@ -103,6 +104,8 @@ __kernel void side_evidence(__global const float* band, const BandParams p, cons
   if (!todo[pixel]) return;
   const Sides sides = sides_at(disparity, strip, p.height, u, v, jump);
   if (isnan(sides.near) || isnan(sides.far)) return;
+  // Estimates from other views may lie outside the range; rows are loaded for that.
+  const float near = clamp(sides.near, least, most), far = clamp(sides.far, least, most);
   __global const float* here = band_row(own_band, own_p, own_view, v) + u;
   const float own[3] = {here[0], here[p.stride], here[2 * p.stride]};
 
@@ -110,11 +113,14 @@ __kernel void side_evidence(__global const float* band, const BandParams p, cons
   for (int k = 0; k < p.num_views; ++k) {
     if (k == strip.ref) continue;
     float near_x, near_y, far_x, far_y, right_x, right_y, down_x, down_y, there;
-    if (!locate(rays, k, u, v, sides.near, &near_x, &near_y, &there) ||
-        !locate(rays, k, u, v, sides.far, &far_x, &far_y, &there) ||
-        !locate(rays, k, u + 1, v, sides.near, &right_x, &right_y, &there) ||
-        !locate(rays, k, u, v + 1, sides.near, &down_x, &down_y, &there))
+    if (!locate(rays, k, u, v, near, &near_x, &near_y, &there) ||
+        !locate(rays, k, u, v, far, &far_x, &far_y, &there) ||
+        !locate(rays, k, u + 1, v, near, &right_x, &right_y, &there) ||
+        !locate(rays, k, u, v + 1, near, &down_x, &down_y, &there))
       continue;
+    const float a = right_x - near_x, b = down_x - near_x, c = right_y - near_y, d = down_y - near_y;
+    const float area = a * d - b * c;
+    if (!(fabs(area) > SIDE_LEAST_AREA)) continue;
     const float near_kernel = side_kernel(band, p, k, near_x, near_y, own, bandwidth);
     if (near_kernel >= 0.0f) {
       near_sum += near_kernel;
@@ -124,8 +130,7 @@ __kernel void side_evidence(__global const float* band, const BandParams p, cons
     if (far_kernel < 0.0f) continue;
     // The pixel whose point on the nearer side would stand in the way, from how places in the view
     // change with the pixel; no farther than rows are looked at.
-    const float a = right_x - near_x, b = down_x - near_x, c = right_y - near_y, d = down_y - near_y;
-    const float x = far_x - near_x, y = far_y - near_y, area = a * d - b * c;
+    const float x = far_x - near_x, y = far_y - near_y;
     const float du = (d * x - b * y) / area, dv = (a * y - c * x) / area;
     const float nearer = min(1.0f, SIDE_VIEW_REACH / fabs(dv));
     const float last_u = (float)(strip.width - 1), last_v = (float)(p.height - 1);
@@ -157,7 +162,7 @@ __kernel void choose_sides(__global const float* own_band, const BandParams own_
   const size_t pixel = view_index(strip, row, u);
   chosen[pixel] = disparity[pixel];
   chosen_confidence[pixel] = confidence[pixel];
-  if (isnan(evidence[pixel])) return;
+  if (isnan(evidence[pixel]) || isnan(disparity[pixel])) return;
   const Sides sides = sides_at(disparity, strip, own_p.height, u, v, jump);
   __global const float* here = band_row(own_band, own_p, strip.ref, v) + u;
   const float own[3] = {here[0], here[own_p.stride], here[2 * own_p.stride]};

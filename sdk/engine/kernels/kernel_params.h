@@ -40,6 +40,7 @@ namespace gigaray {
 #define SIDE_FAR_FLOOR (1.0f / 6.0f)
 #define SIDE_COLOUR_SHARE 0.5f
 #define SIDE_LEAD 0.1f
+#define SIDE_LEAST_AREA 1e-6f  // of a pixel in another view, px²
 
 /// A band: rows [row_begin, row_end) of all views at one level, as floats
 /// [slot][view][channel][stride], pixel u at GIGARAY_PAD + u. Row row_begin is in first_slot, and

@@ -4,7 +4,7 @@
 // colour and a triangle of the gradient,
 //   K = (1 - share) Kc + share Kg min(1, 4 Kc),
 // averaged over the other views: the reference agrees with itself under any hypothesis. The gate keeps an occluder of another colour from scoring by its gradient.
-//   band    [row][view][5][stride]: RGB, gx, gy
+//   band    [slot][view][5][stride]: RGB, gx, gy
 //   members [view] bit 0: the view counts; HALF_PLANES 1: bit i: it lies in half-plane i of the camera
 //           positions (view_sets.h)
 //   own     the reference view: view own_view of a band with parameters own_p

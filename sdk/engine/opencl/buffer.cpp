@@ -68,10 +68,10 @@ Buffer::Buffer(const Device& device, std::size_t bytes)
       queue_(device.queue()),
       bytes_(bytes) {}
 
-Buffer Buffer::over_host_memory(const Device& device, std::span<std::byte> memory) {
+Buffer Buffer::over_host_memory(const Device& device, std::span<std::byte> memory, bool read_only) {
   Buffer buffer;
-  buffer.memory_ =
-      create(device, CL_MEM_READ_WRITE | CL_MEM_USE_HOST_PTR, memory.size(), memory.data());
+  const cl_mem_flags access = read_only ? CL_MEM_READ_ONLY : CL_MEM_READ_WRITE;
+  buffer.memory_ = create(device, access | CL_MEM_USE_HOST_PTR, memory.size(), memory.data());
   buffer.queue_ = device.queue();
   buffer.bytes_ = memory.size();
   return buffer;

@@ -30,7 +30,9 @@ class Buffer {
   /// Over the caller's memory, which must outlive the buffer: no copy on a device that
   /// shares_host_memory. While the buffer lives, the host looks at it through read() and write().
   /// An alignment of 64 bytes lets every CPU driver do without a copy.
-  static Buffer over_host_memory(const Device& device, std::span<std::byte> memory);
+  /// read_only: kernels don't write it, so several buffers may lie over the same memory.
+  static Buffer over_host_memory(const Device& device, std::span<std::byte> memory,
+                                 bool read_only = false);
 
   /// A buffer of zeros. On a device that shares the host's memory it takes no time: pages are made,
   /// as zeros and large ones, when they are first used.

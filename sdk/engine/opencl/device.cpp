@@ -145,12 +145,6 @@ const FoundDevice& select(const std::vector<FoundDevice>& found, const std::stri
   throw Error(ErrorCode::kDevice, message);
 }
 
-FoundDevice select(const std::string& given) {
-  const auto found = require_devices();
-  const std::string selection = stated_device(given);
-  return selection.empty() ? usual(found) : select(found, selection, given);
-}
-
 /// Each with what selects it alone.
 std::vector<std::pair<FoundDevice, std::string>> select_each(const std::string& given) {
   const auto found = require_devices();
@@ -171,9 +165,16 @@ std::vector<std::pair<FoundDevice, std::string>> select_each(const std::string& 
         throw Error(ErrorCode::kDevice, "device list '" + selections + "' names " +
                                             std::to_string(device.info.index) + ": " +
                                             device.info.name + " twice");
-    chosen.emplace_back(device, selection);
+    chosen.emplace_back(device, trimmed(selection));
   }
   return chosen;
+}
+
+/// Of several that the environment names, the first.
+FoundDevice select(const std::string& given) {
+  if (given.empty()) return select_each(given).front().first;
+  const auto found = require_devices();
+  return select(found, given, given);
 }
 
 }  // namespace
@@ -208,6 +209,12 @@ std::vector<Device> Device::open_each(const std::string& selections) {
   for (auto& [found, selection] : select_each(selections))
     devices.push_back(make(std::move(found.device), std::move(found.info), selection));
   return devices;
+}
+
+std::vector<std::string> selections_of(const std::string& selections) {
+  std::vector<std::string> each;
+  for (auto& [found, selection] : select_each(selections)) each.push_back(selection);
+  return each;
 }
 
 Device Device::with_own_queue() const {

@@ -94,4 +94,8 @@ class Device {
   std::shared_ptr<EventLog> log_;
 };
 
+/// What selects each of the devices that `selections` means, see select_devices(), alone. Throws
+/// Error(kDevice).
+std::vector<std::string> selections_of(const std::string& selections);
+
 }  // namespace gigaray::opencl

@@ -141,6 +141,7 @@ void DeviceWorkspace::side_evidence(int ref, RowRange rows, float jump,
   LaneKernel& kernel = lane_kernel("jump_sides", sides_defines(), "side_evidence");
   kernel.kernel.set_args(band_memory_.buffer, band_, strip(ref, rows), own.buffer, own.band,
                          own.view, rays(ref), buffer_of(todo), buffer_of(disparity), jump,
+                         float(setup_.hypotheses.min), float(setup_.hypotheses.max),
                          SIDE_WIDER * setup_.options.score.bandwidth, buffer_of(evidence));
   kernel.run_pixels(band_.width, rows.size());
 }

@@ -52,7 +52,7 @@ std::shared_ptr<Memory> DeviceWorkspace::allocate(std::size_t bytes) {
 
 std::shared_ptr<Memory> DeviceWorkspace::adopt(std::span<std::byte> host) {
   if (device_.info().shares_host_memory)
-    return std::make_shared<DeviceMemory>(Buffer::over_host_memory(device_, host));
+    return std::make_shared<DeviceMemory>(Buffer::over_host_memory(device_, host, true));
   auto memory = std::make_shared<DeviceMemory>(Buffer(device_, host.size()));
   write(*memory, host, 0);
   return memory;

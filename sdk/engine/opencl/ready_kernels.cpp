@@ -16,7 +16,8 @@ namespace {
 fs::path file_of(const fs::path& cache, std::string_view job) {
   ContentHash hash;
   hash.add(job);
-  for (const char* part : {"kernel_params.h", "common.cl", "density_score.cl", "robust_score.cl"})
+  for (const char* part :
+       {"kernel_params.h", "common.cl", "density_score.cl", "robust_score.cl", "jump_sides.cl"})
     hash.add(kernel_source(part));
   return cache / kReadyFolder / to_hex(hash.value());
 }

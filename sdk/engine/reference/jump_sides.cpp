@@ -90,7 +90,7 @@ void choose_sides(const Band& own, int view, RowRange rows, float jump, float si
     for (int u = 0; u < width; ++u) {
       chosen.row(v)[u] = disparity.row(v)[u];
       chosen_confidence.row(v)[u] = confidence.row(v)[u];
-      if (std::isnan(evidence.row(v)[u])) continue;
+      if (std::isnan(evidence.row(v)[u]) || std::isnan(disparity.row(v)[u])) continue;
       const Sides sides = sides_at(disparity, height, u, v, jump);
       const Sample here = own.pixel(view, u, v);
       float sum = 0, weights = 0;

@@ -30,7 +30,7 @@ std::optional<float> side_kernel(const Band& band, const S& sampler, int ref, in
 }
 
 /// The pixel of the reference view whose point under hypothesis `near` view `other` sees where it
-/// sees this one's under `far`, to first order. Empty: behind a camera.
+/// sees this one's under `far`, to first order. Empty: behind a camera, or seen as a point.
 template <RaySampler S>
 std::optional<std::pair<double, double>> pixel_before(const S& sampler, int ref, int other,
                                                       double u, double v, double near, double far) {
@@ -41,6 +41,7 @@ std::optional<std::pair<double, double>> pixel_before(const S& sampler, int ref,
   if (!at || !hidden || !right || !down) return std::nullopt;
   const double a = right->u - at->u, b = down->u - at->u, c = right->v - at->v, d = down->v - at->v;
   const double x = hidden->u - at->u, y = hidden->v - at->v, area = a * d - b * c;
+  if (!(std::abs(area) > SIDE_LEAST_AREA)) return std::nullopt;
   return std::pair(u + (d * x - b * y) / area, v + (a * y - c * x) / area);
 }
 
@@ -48,20 +49,23 @@ std::optional<std::pair<double, double>> pixel_before(const S& sampler, int ref,
 /// for the farther one; both have an estimate.
 template <RaySampler S>
 float side_evidence(const Band& band, const S& sampler, int ref, int u, int v, const Sides& sides,
-                    MapView<const float> disparity, const Sample& own,
+                    const HypothesisRange& range, MapView<const float> disparity, const Sample& own,
                     const ScoreOptions& options) {
+  // Estimates from other views may lie outside the range; rows are loaded for that.
+  const double near = std::clamp<double>(sides.near, range.min, range.max),
+               far = std::clamp<double>(sides.far, range.min, range.max);
   float near_sum = 0, near_count = 0, far_sum = 0, far_count = 0;
   for (int other = 0; other < sampler.num_views(); ++other) {
     if (other == ref) continue;
-    const auto before = pixel_before(sampler, ref, other, u, v, sides.near, sides.far);
+    const auto before = pixel_before(sampler, ref, other, u, v, near, far);
     if (!before) continue;
-    if (const auto kernel = side_kernel(band, sampler, ref, other,
-                                        Ray{double(u), double(v), sides.near}, own, options)) {
+    if (const auto kernel =
+            side_kernel(band, sampler, ref, other, Ray{double(u), double(v), near}, own, options)) {
       near_sum += *kernel;
       near_count += 1;
     }
     const auto kernel =
-        side_kernel(band, sampler, ref, other, Ray{double(u), double(v), sides.far}, own, options);
+        side_kernel(band, sampler, ref, other, Ray{double(u), double(v), far}, own, options);
     if (!kernel) continue;
     const double du = before->first - u, dv = before->second - v;
     const double nearer = std::min(1.0, double(SIDE_VIEW_REACH) / std::abs(dv));

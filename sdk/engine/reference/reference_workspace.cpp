@@ -386,7 +386,8 @@ class ReferenceWorkspace : public Workspace {
         if (!view(todo).row(v)[u]) continue;
         const auto sides = reference::sides_at(view(disparity), band_.shape.height, u, v, jump);
         if (std::isnan(sides.near) || std::isnan(sides.far)) continue;
-        answer = reference::side_evidence(band_, sampler_, place(ref), u, v, sides, view(disparity),
+        answer = reference::side_evidence(band_, sampler_, place(ref), u, v, sides,
+                                          setup_.hypotheses, view(disparity),
                                           own.band.pixel(own.view, u, v), setup_.options.score);
       }
   }

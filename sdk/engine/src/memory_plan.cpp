@@ -37,6 +37,7 @@ constexpr double kLargestBand = 1792 * kMiB;
 
 struct LevelCost {
   double stores = 0;    // bytes of everything that is kept of the level
+  double shared = 0;    // of that, what several devices that share the host's memory share
   double band_row = 0;  // bytes of one row of a band, on the device and beside it
   double reached_row =
       0;  // bytes of one row of estimates that rays of a band reach, brought for it
@@ -60,7 +61,11 @@ LevelCost cost_of(const LevelShape& shape, const LightField& light_field,
   LevelCost cost;
   cost.stores = pixels * (all * colour_bytes + active * kept);
   cost.largest_store = pixels * std::max(all * colour_bytes, active * sizeof(Search));
-  if (shape.level == 0 && light_field.pixels->has_mask()) cost.stores += pixels * all;
+  if (shape.level == 0) {
+    const double masks = light_field.pixels->has_mask() ? pixels * all : 0;
+    cost.stores += masks;
+    cost.shared = pixels * all * colour_bytes + masks;
+  }
   const bool gradient = options.score.gradient;
   const double planes = n * map_pitch(shape.width) * sizeof(float);
   const double plane_bytes = planes * (gradient ? 5 : 3);
@@ -197,7 +202,8 @@ class Planner {
     MemoryPlan result;
     result.place = place;
     const bool in_files = place == Place::kFile, staged = place != Place::kDevice;
-    const double stores = in_files ? 0 : store_bytes();
+    const bool on_own = !staged && !device_.shares_host_memory;
+    const double stores = in_files ? 0 : store_bytes(on_own ? 1 : device_.devices);
     const double on_host = device_.shares_host_memory || staged ? stores : passing_bytes();
     const double fixed = fixed_bytes(volume);
     if (!staged && largest_store() > device_.largest_buffer) return std::nullopt;
@@ -249,7 +255,7 @@ class Planner {
     const double free_for_decoding =
         2.0 / 3 * (fixed + bands_on_host - kProcessBytes - options_.memory_beside);
     result.decoders = int(std::clamp(free_for_decoding / decoder_bytes(), 1.0, 1024.0));
-    result.forecast.disk_bytes = in_files ? store_bytes() : 0;
+    result.forecast.disk_bytes = in_files ? store_bytes(device_.devices) : 0;
     const int first = result.levels.front().band_rows;
     result.forecast.bands = (light_field_.height + first - 1) / first;
     return result;
@@ -286,7 +292,7 @@ class Planner {
     for (const Place place : {Place::kDevice, Place::kHost})
       if (const auto all = plan(plenty, usual_volume(plenty), place))
         return all->forecast.memory_bytes;
-    return fixed_bytes(usual_volume(plenty)) + store_bytes();
+    return fixed_bytes(usual_volume(plenty)) + store_bytes(device_.devices);
   }
 
  private:
@@ -310,10 +316,13 @@ class Planner {
           cost_of(shape, light_field_, options_, active_, band_views_, false).largest_store);
     return largest;
   }
-  double store_bytes() const {
+  /// copies: devices that each have their own of what is not shared.
+  double store_bytes(int copies) const {
     double stores = 0;
-    for (const LevelShape& shape : shapes_)
-      stores += cost_of(shape, light_field_, options_, active_, band_views_, false).stores;
+    for (const LevelShape& shape : shapes_) {
+      const LevelCost cost = cost_of(shape, light_field_, options_, active_, band_views_, false);
+      stores += cost.shared + copies * (cost.stores - cost.shared);
+    }
     return stores + kTuplesPerPixel * sizeof(RayTuple) * light_field_.width * light_field_.height;
   }
   /// What the host holds of a run that lies on a device with memory of its own: the pictures as

@@ -175,7 +175,7 @@ class Member : public Partition {
     team_.meet();
     for (int i = 0; i < count(); ++i) {
       const RowRange ours = overlap(mine.wanted, team_.offer(i).own);
-      if (i != index_ && ours.size() > 0) rows.write(ours, team_.offer(i).rows[index_].data());
+      if (i != index_ && ours.size() > 0) rows.write(ours, team_.offer(i).rows.at(index_).data());
     }
     team_.meet();
     mine.rows.clear();

@@ -8,9 +8,15 @@
 namespace gigaray {
 
 void Pipeline::bring_rows(LevelRows& rows, int level, RowRange wanted) {
-  partition_->bring({rows_of(level).own, wanted, rows.row_bytes(),
-                     [&](RowRange part, std::byte* out) { rows.read(part, out); },
-                     [&](RowRange part, const std::byte* in) { rows.write(part, in); }});
+  // Some at a time: those of all views may be more than the plan leaves room for.
+  constexpr std::size_t kBytesAtOnce = 64 << 20;
+  const int height = plan_.levels[level].shape.height;
+  const int at_once = int(std::clamp<std::size_t>(kBytesAtOnce / rows.row_bytes(), 1, height));
+  for (int v = 0; v < height; v += at_once)
+    partition_->bring({rows_of(level).own, overlap(wanted, {v, std::min(v + at_once, height)}),
+                       rows.row_bytes(),
+                       [&](RowRange part, std::byte* out) { rows.read(part, out); },
+                       [&](RowRange part, const std::byte* in) { rows.write(part, in); }});
 }
 
 bool Pipeline::do_rays_stay(int level) const {

@@ -16,6 +16,7 @@
 #include "inverse_depths.h"
 #include "make_workspace.h"
 #include "opencl/cache_folder.h"
+#include "opencl/device.h"
 #include "opencl/ready_kernels.h"
 #include "reconstruction_impl.h"
 #include "run.h"
@@ -166,8 +167,8 @@ std::string kernel_job(const Prepared& run, const std::string& devices) {
        << o.edge.threshold << ' ' << o.edge.squared << ' ' << o.score.linear_rgb << ' '
        << o.score.cubic << ' ' << o.score.gradient << ' ' << o.score.ray_mean << ' '
        << o.support.radius << ' ' << o.support.slanted << ' ' << o.support.half_planes << ' '
-       << o.support.scanline << ' ' << o.winner.refine << ' ' << o.winner.median_radius << ' '
-       << o.propagation.fine_to_coarse;
+       << o.support.choose_sides << ' ' << o.support.scanline << ' ' << o.winner.refine << ' '
+       << o.winner.median_radius << ' ' << o.propagation.fine_to_coarse;
   return text.str();
 }
 
@@ -184,6 +185,19 @@ DeviceLimits limits_of(const std::vector<DeviceInfo>& devices) {
     limits.largest_buffer = std::min(limits.largest_buffer, double(device.max_allocation));
   }
   return limits;
+}
+
+/// Selections of devices one by one, as a run notes them.
+std::string joined(const std::string& selection) {
+  if (selection.find_first_not_of(" ,") == std::string::npos) return selection;
+  std::string each;
+  try {
+    for (const std::string& one : opencl::selections_of(selection))
+      each += (each.empty() ? "" : ",") + one;
+  } catch (const Error&) {  // the run will say so
+    return selection;
+  }
+  return each;
 }
 
 /// Of devices that are not open. Where there are none the run will say so, and a forecast is one
@@ -309,7 +323,7 @@ Forecast forecast(const LightField& light_field, const DepthOptions& options,
   const Prepared run = prepare(light_field, options, RunControl{});
   if (backend.backend == "reference") return plan_run(run, std::nullopt, kHost).forecast;
   const std::string devices = opencl::stated_device(backend.device);
-  return plan_run(run, devices, limits_of(devices)).forecast;
+  return plan_run(run, joined(devices), limits_of(devices)).forecast;
 }
 
 double least_memory_bytes(const LightField& light_field, const DepthOptions& options) {

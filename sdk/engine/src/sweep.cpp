@@ -50,7 +50,10 @@ std::vector<SweepStage> sweep_stages(const DepthOptions& options, int level, int
     }
   }
   if (again && support.choose_sides) {
-    stages.push_back({SweepStep::kLastMedian, median, 1});
+    // It writes where those steps still look at what was smooth before.
+    const int apart =
+        support.half_planes ? kBesideJump - 2 * support.radius : kSlopeReach - support.radius;
+    stages.push_back({SweepStep::kLastMedian, std::max(median, apart), 1});
     for (const auto& [evidence, choice] :
          {std::pair(SweepStep::kSideEvidence, SweepStep::kChooseSides),
           std::pair(SweepStep::kSideEvidenceAgain, SweepStep::kChooseSidesAgain)}) {

@@ -89,8 +89,8 @@ class Workspace {
 
   // ---- Memory -----------------------------------------------------------------------------------
   virtual std::shared_ptr<Memory> allocate(std::size_t bytes) = 0;  ///< zeros
-  /// The host's memory for the device, without a copy where they share it. It must outlive what is
-  /// returned, and is the device's alone meanwhile.
+  /// The host's memory for the device to read, without a copy where they share it. It must outlive
+  /// what is returned, and nobody writes it meanwhile; other devices may have it too.
   virtual std::shared_ptr<Memory> adopt(std::span<std::byte> host) = 0;
   virtual void write(Memory& memory, std::span<const std::byte> data, std::size_t offset = 0) = 0;
   /// Waits for all steps before.

@@ -25,7 +25,7 @@ inline constexpr float kLeastBandwidth = 0.015f, kLeastGradientBandwidth = 0.003
 struct ScoreOptions {
   bool linear_rgb = true;  ///< Compare linear RGB (sRGB EOTF); false: values as encoded.
   bool cubic = false;      ///< Catmull-Rom interpolation of samples; false: linear.
-  /// Triangle kernels of colour and of the gradient (docs/method.md); false: the paper's
+  /// Kernels of colour and of the gradient, of the other views (docs/method.md); false: the paper's
   /// Epanechnikov kernel of colour.
   bool gradient = false;
   float bandwidth = 0.02f;            ///< Kernel bandwidth h, colour in [0, 1]. > 0
@@ -44,7 +44,8 @@ struct ScoreOptions {
   /// Fewer views that see the point: the hypothesis is not tested. A share of all views, 0 … 1.
   float min_views = 0.2f;
   /// The sum of kernels is divided by the number of views that see the point, but at least by this
-  /// share of all views. 0 … 1
+  /// share of all views. 0 … 1. With `gradient` only other views count, here and above, and those
+  /// that are missing to this share count as undecided.
   float floor_views = 0;
 };
 
