@@ -220,6 +220,9 @@ std::vector<std::string> selections_of(const std::string& selections) {
 Device Device::with_own_queue() const {
   Device other(opened_);
   other.seen_ = seen_;
+  // PoCL 3.1 miscounts the users of a loaded kernel when two queues of a device run it at once, and
+  // ends the process. One in-order queue for all loses nothing there: a kernel has all cores.
+  if (info().platform == kPocl) other.queue_ = queue_;
   return other;
 }
 

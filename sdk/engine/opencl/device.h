@@ -42,7 +42,8 @@ class Device {
   /// selections: see select_devices(). Throws Error(kDevice).
   static std::vector<Device> open_each(const std::string& selections = "");
 
-  /// The same context and programs with a queue and a log of its own. Thread-safe.
+  /// The same context and programs with a queue (on PoCL the same one) and a log of its own.
+  /// Thread-safe.
   Device with_own_queue() const;
 
   /// Devices with as many compute units each, in their own contexts: several devices for tests,
