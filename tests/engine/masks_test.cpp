@@ -3,8 +3,8 @@
 // Masks of 3D and 4D light fields; those of posed cameras are in unstructured_test.cpp.
 #include <gtest/gtest.h>
 
-#include "engine/barred_pictures.h"
 #include "engine/cache_fixture.h"
+#include "engine/masked_pictures.h"
 #include "support/analytic_field.h"
 #include "support/depth_result.h"
 
@@ -18,8 +18,7 @@ bool is_in_bar(int u) { return u >= kBarBegin && u < kBarEnd; }
 
 AnalyticField barred(std::vector<View> views) {
   AnalyticField field = analytic_field(kWidth, kHeight, std::move(views), {{1.3, 5}});
-  field.light_field.pixels =
-      std::make_shared<BarredPictures>(field.light_field.pixels, kBarBegin, kBarEnd);
+  field.light_field.pixels = with_bar(field.light_field.pixels, kBarBegin, kBarEnd);
   return field;
 }
 

@@ -20,22 +20,7 @@
 namespace gigaray::testing_support {
 namespace {
 
-AnalyticField scene(const std::vector<View>& views, int width, int height) {
-  const Layer back{-0.3, 1, 0.4};
-  Layer front{1.1, 2};
-  front.left = 0.3 * width;
-  front.right = 0.7 * width;
-  front.top = 0.2 * height;
-  front.bottom = 0.6 * height;
-  return analytic_field(width, height, views, {back, front}, 8, 0.004);
-}
-
-DepthOptions small_job(const std::string& preset) {
-  DepthOptions options = preset_options(preset);
-  options.disparity = DisparityRange{-1, 2};
-  options.hypotheses = 19;
-  return options;
-}
+constexpr int kHypotheses = 19;
 
 void expect_partitions_alike(const std::string& backend, const LightField& light_field,
                              const DepthOptions& options) {
@@ -58,23 +43,25 @@ void expect_partitions_alike(const std::string& backend, const LightField& light
 }
 
 TEST(Partitions, GiveTheSameBitsInTheReference) {
-  DepthOptions options = small_job("auto");
+  DepthOptions options = small_job("auto", kHypotheses);
   options.hypotheses = 13;
   options.support.radius = 2;
-  expect_partitions_alike("reference", scene(row_of_views(3), 27, 131).light_field, options);
-  expect_partitions_alike("reference", scene(grid_of_views(2, 2), 31, 97).light_field, options);
+  expect_partitions_alike("reference", card_before_wall(row_of_views(3), 27, 131).light_field,
+                          options);
+  expect_partitions_alike("reference", card_before_wall(grid_of_views(2, 2), 31, 97).light_field,
+                          options);
 }
 
 TEST(Partitions, GiveTheSameBitsForARow) {
   for (const char* preset : {"paper", "auto"})
-    expect_partitions_alike("opencl", scene(irregular_row(), 45, 261).light_field,
-                            small_job(preset));
+    expect_partitions_alike("opencl", card_before_wall(irregular_row(), 45, 261).light_field,
+                            small_job(preset, kHypotheses));
 }
 
 TEST(Partitions, GiveTheSameBitsForAGrid) {
   for (const char* preset : {"paper", "auto"})
-    expect_partitions_alike("opencl", scene(irregular_grid(), 41, 163).light_field,
-                            small_job(preset));
+    expect_partitions_alike("opencl", card_before_wall(irregular_grid(), 41, 163).light_field,
+                            small_job(preset, kHypotheses));
 }
 
 std::vector<View> posed_grid() {
@@ -115,12 +102,12 @@ TEST(Partitions, OnPartsOfACpuGiveTheSameBits) {
   std::vector<Device> halves;
   for (const opencl::Device& part : whole.split(2))
     halves.emplace_back(std::make_shared<const opencl::Device>(part));
-  const LightField light_field = scene(grid_of_views(3, 3), 61, 97).light_field;
+  const LightField light_field = card_before_wall(grid_of_views(3, 3), 61, 97).light_field;
   const Estimator estimator(halves);
-  expect_identical(depth(Estimator(), light_field, small_job("auto")),
-                   depth(estimator, light_field, small_job("auto")), "two halves");
+  expect_identical(depth(Estimator(), light_field, small_job("auto", kHypotheses)),
+                   depth(estimator, light_field, small_job("auto", kHypotheses)), "two halves");
   const Reconstruction result =
-      estimator.reconstruct(light_field, small_job("paper"), RunControl{});
+      estimator.reconstruct(light_field, small_job("paper", kHypotheses), RunControl{});
   EXPECT_NE(result.device().find("; " + halves[1].info().name), std::string::npos)
       << result.device();
 }
@@ -131,7 +118,7 @@ TEST(Partitions, AnEstimatorWithoutADeviceIsRefused) {
 }
 
 TEST(Partitions, CancellingEndsAllOfThem) {
-  const LightField light_field = scene(grid_of_views(3, 3), 41, 97).light_field;
+  const LightField light_field = card_before_wall(grid_of_views(3, 3), 41, 97).light_field;
   RunControl control;
   int reports = 0;
   control.on_progress = [&](const std::string& stage, double, double) {
@@ -139,8 +126,9 @@ TEST(Partitions, CancellingEndsAllOfThem) {
   };
   Cut cut;
   cut.partitions = 3;
-  expect_error(ErrorCode::kCancelled, {},
-               [&] { PlannedRun(light_field, small_job("auto"), "opencl", cut, control); });
+  expect_error(ErrorCode::kCancelled, {}, [&] {
+    PlannedRun(light_field, small_job("auto", kHypotheses), "opencl", cut, control);
+  });
   EXPECT_GE(reports, 3);
 }
 
@@ -160,8 +148,8 @@ bool within(RowRange a, RowRange b) { return a.begin >= b.begin && a.end <= b.en
 
 TEST(PartitionRows, OwnRowsMeetAndTheOthersLieAroundThem) {
   for (const char* preset : {"paper", "auto"}) {
-    const LightField light_field = scene(grid_of_views(3, 3), 41, 1003).light_field;
-    const auto all = rows_of(light_field, small_job(preset), 4);
+    const LightField light_field = card_before_wall(grid_of_views(3, 3), 41, 1003).light_field;
+    const auto all = rows_of(light_field, small_job(preset, kHypotheses), 4);
     ASSERT_EQ(all.size(), 4u);
     int height = light_field.height;
     for (std::size_t level = 0; level < all[0].size(); ++level) {
@@ -183,11 +171,11 @@ TEST(PartitionRows, OwnRowsMeetAndTheOthersLieAroundThem) {
 }
 
 TEST(PartitionRows, OneHasAllAndSmallPicturesAreNotCutIntoNothing) {
-  const LightField light_field = scene(row_of_views(3), 41, 67).light_field;
+  const LightField light_field = card_before_wall(row_of_views(3), 41, 67).light_field;
   const RowRange all{0, 67};
-  EXPECT_EQ(rows_of(light_field, small_job("auto"), 1).front().front(),
+  EXPECT_EQ(rows_of(light_field, small_job("auto", kHypotheses), 1).front().front(),
             (PartitionRows{all, all, all, all, all}));
-  const auto most = rows_of(light_field, small_job("auto"), 100);
+  const auto most = rows_of(light_field, small_job("auto", kHypotheses), 100);
   EXPECT_GT(most.size(), 1u);
   EXPECT_LE(most.size(), 5u);  // blocks of 16 rows
   for (const auto& partition : most)

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "engine/cache_fixture.h"
+#include "engine/masked_pictures.h"
 #include "engine/planned_run.h"
 #include "src/band_ring.h"
 #include "support/analytic_field.h"
@@ -18,22 +19,7 @@
 namespace gigaray::testing_support {
 namespace {
 
-AnalyticField scene(const std::vector<View>& views, int width, int height, int bit_depth = 8) {
-  const Layer back{-0.3, 1, 0.4};
-  Layer front{1.1, 2};
-  front.left = 0.3 * width;
-  front.right = 0.7 * width;
-  front.top = 0.2 * height;
-  front.bottom = 0.6 * height;
-  return analytic_field(width, height, views, {back, front}, bit_depth, 0.004);
-}
-
-DepthOptions small_job(const std::string& preset) {
-  DepthOptions options = preset_options(preset);
-  options.disparity = DisparityRange{-1, 2};
-  options.hypotheses = 31;
-  return options;
-}
+constexpr int kHypotheses = 31;
 
 DepthResult run(const LightField& light_field, const DepthOptions& options,
                 const std::string& backend = "opencl") {
@@ -51,9 +37,9 @@ struct Job {
 class PipelineBands : public testing::TestWithParam<Job> {};
 
 TEST_P(PipelineBands, MemoryAndFilesDontChangeTheResult) {
-  const AnalyticField field =
-      GetParam().is_4d ? scene(grid_of_views(3, 3), 41, 231) : scene(irregular_row(), 93, 131);
-  DepthOptions options = small_job(GetParam().preset);
+  const AnalyticField field = GetParam().is_4d ? card_before_wall(grid_of_views(3, 3), 41, 231)
+                                               : card_before_wall(irregular_row(), 93, 131);
+  DepthOptions options = small_job(GetParam().preset, kHypotheses);
   const ScopedFolder work;
   options.work_folder = work.path;
   options.memory_bytes = 4e9;
@@ -81,9 +67,9 @@ TEST_P(PipelineBands, MemoryAndFilesDontChangeTheResult) {
 }
 
 TEST_P(PipelineBands, TwiceTheSameInputGivesTheSameBits) {
-  const AnalyticField field =
-      GetParam().is_4d ? scene(irregular_grid(), 47, 39) : scene(row_of_views(5), 77, 41, 16);
-  const DepthOptions options = small_job(GetParam().preset);
+  const AnalyticField field = GetParam().is_4d ? card_before_wall(irregular_grid(), 47, 39)
+                                               : card_before_wall(row_of_views(5), 77, 41, 16);
+  const DepthOptions options = small_job(GetParam().preset, kHypotheses);
   expect_identical(run(field.light_field, options), run(field.light_field, options), "second run");
 }
 
@@ -109,69 +95,55 @@ void expect_bands_alike(const std::string& backend, const LightField& light_fiel
 }
 
 TEST(PipelineBandHeight, ReferenceGivesTheSameBitsInAnyBands) {
-  DepthOptions options = small_job("auto");
+  DepthOptions options = small_job("auto", kHypotheses);
   options.hypotheses = 13;
   options.support.radius = 2;
-  expect_bands_alike("reference", scene(row_of_views(3), 27, 71).light_field, options);
+  expect_bands_alike("reference", card_before_wall(row_of_views(3), 27, 71).light_field, options);
   options.support.scanline = false;  // smaller bands
-  expect_bands_alike("reference", scene(row_of_views(4), 37, 23).light_field, options);
-  expect_bands_alike("reference", scene(grid_of_views(2, 2), 31, 27).light_field, options);
-  options = small_job("paper");
+  expect_bands_alike("reference", card_before_wall(row_of_views(4), 37, 23).light_field, options);
+  expect_bands_alike("reference", card_before_wall(grid_of_views(2, 2), 31, 27).light_field,
+                     options);
+  options = small_job("paper", kHypotheses);
   options.hypotheses = 17;
-  expect_bands_alike("reference", scene(grid_of_views(2, 2), 31, 27, 16).light_field, options);
+  expect_bands_alike("reference", card_before_wall(grid_of_views(2, 2), 31, 27, 16).light_field,
+                     options);
 }
 
 TEST(PipelineBandHeight, OpenClGivesTheSameBitsInAnyBandsAndStrips) {
   for (const char* preset : {"paper", "auto"}) {
-    DepthOptions options = small_job(preset);
-    expect_bands_alike("opencl", scene(irregular_row(), 35, 103).light_field, options);
+    DepthOptions options = small_job(preset, kHypotheses);
+    expect_bands_alike("opencl", card_before_wall(irregular_row(), 35, 103).light_field, options);
     options.support.scanline = false;  // smaller bands
-    expect_bands_alike("opencl", scene(row_of_views(4), 45, 37).light_field, options);
+    expect_bands_alike("opencl", card_before_wall(row_of_views(4), 45, 37).light_field, options);
     if (options.support.choose_sides) {
       // Smaller windows: stages follow each other nearer.
       DepthOptions near = options;
       near.support.radius = 3;
       near.winner.median_radius = 1;
-      expect_bands_alike("opencl", scene(row_of_views(4), 45, 67).light_field, near);
+      expect_bands_alike("opencl", card_before_wall(row_of_views(4), 45, 67).light_field, near);
       near.support.half_planes = false;
-      expect_bands_alike("opencl", scene(row_of_views(4), 45, 67).light_field, near);
+      expect_bands_alike("opencl", card_before_wall(row_of_views(4), 45, 67).light_field, near);
     }
-    expect_bands_alike("opencl", scene(irregular_grid(), 31, 33).light_field, options);
+    expect_bands_alike("opencl", card_before_wall(irregular_grid(), 31, 33).light_field, options);
   }
 }
 
-/// Spots in every picture that show nothing, each two rows high: a kept row beside a masked one is
-/// the last of some band.
-class SpottedPictures : public PixelSource {
- public:
-  explicit SpottedPictures(std::shared_ptr<const PixelSource> pixels)
-      : pixels_(std::move(pixels)) {}
-  int bit_depth() const override { return pixels_->bit_depth(); }
-  bool has_mask() const override { return true; }
-  Image<std::uint16_t> read(int view_idx) const override {
-    const Image<std::uint16_t> whole = pixels_->read(view_idx);
-    Image<std::uint16_t> picture(whole.width(), whole.height(), 4);
-    for (int v = 0; v < whole.height(); ++v)
-      for (int u = 0; u < whole.width(); ++u)
-        for (int c = 0; c < picture.channels(); ++c)
-          picture(u, v, c) = u % 11 < 3 && v % 5 < 2 ? 0 : c == 3 ? 255 : whole(u, v, c);
-    return picture;
-  }
-
- private:
-  std::shared_ptr<const PixelSource> pixels_;
-};
+/// Spots, each two rows high: a kept row beside a masked one is the last of some band.
+std::shared_ptr<const PixelSource> spotted(std::shared_ptr<const PixelSource> pixels) {
+  return std::make_shared<PicturesWithHoles>(std::move(pixels),
+                                             [](int u, int v) { return u % 11 < 3 && v % 5 < 2; });
+}
 
 TEST(PipelineBandHeight, MaskedPixelsAreTheSameInAnyBands) {
   for (const char* preset : {"paper", "auto"}) {
-    DepthOptions options = small_job(preset);
+    DepthOptions options = small_job(preset, kHypotheses);
     options.support.scanline = false;  // smaller bands
-    LightField light_field = scene(irregular_grid(), 31, 53).light_field;
-    light_field.pixels = std::make_shared<SpottedPictures>(light_field.pixels);
+    LightField light_field = card_before_wall(irregular_grid(), 31, 53).light_field;
+    light_field.pixels = spotted(light_field.pixels);
     expect_bands_alike("opencl", light_field, options);
     options.hypotheses = 13;
-    light_field = scene(row_of_views(3), 27, 31).light_field;
-    light_field.pixels = std::make_shared<SpottedPictures>(light_field.pixels);
+    light_field = card_before_wall(row_of_views(3), 27, 31).light_field;
+    light_field.pixels = spotted(light_field.pixels);
     expect_bands_alike("reference", light_field, options);
   }
 }
@@ -180,13 +152,13 @@ TEST(PipelineBandHeight, PosedViewsAreTheSameInAnyBands) {
   const std::vector<View> grid = grid_of_views(2, 2);
   LightField light_field = posed_field(cameras_around(grid, 45, 91), grid).light_field;
   for (const char* preset : {"paper", "auto"}) {
-    DepthOptions options = small_job(preset);
+    DepthOptions options = small_job(preset, kHypotheses);
     options.disparity = DisparityRange{0, 1};
     options.support.scanline = false;  // smaller bands
     expect_bands_alike("opencl", light_field, options);
   }
-  light_field.pixels = std::make_shared<SpottedPictures>(light_field.pixels);
-  DepthOptions options = small_job("auto");
+  light_field.pixels = spotted(light_field.pixels);
+  DepthOptions options = small_job("auto", kHypotheses);
   options.disparity = DisparityRange{0, 1};
   expect_bands_alike("opencl", light_field, options);
 }

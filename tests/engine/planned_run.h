@@ -16,9 +16,30 @@
 #include "opencl/opencl_workspace.h"
 #include "src/make_workspace.h"
 #include "src/run.h"
+#include "support/analytic_field.h"
 #include "support/depth_result.h"
 
 namespace gigaray::testing_support {
+
+/// A card before a wall, with a little noise.
+inline AnalyticField card_before_wall(const std::vector<View>& views, int width, int height,
+                                      int bit_depth = 8) {
+  const Layer back{-0.3, 1, 0.4};
+  Layer front{1.1, 2};
+  front.left = 0.3 * width;
+  front.right = 0.7 * width;
+  front.top = 0.2 * height;
+  front.bottom = 0.6 * height;
+  return analytic_field(width, height, views, {back, front}, bit_depth, 0.004);
+}
+
+/// What finds it.
+inline DepthOptions small_job(const std::string& preset, int hypotheses) {
+  DepthOptions options = preset_options(preset);
+  options.disparity = DisparityRange{-1, 2};
+  options.hypotheses = hypotheses;
+  return options;
+}
 
 /// How a run is cut into pieces, and where it lies.
 struct Cut {

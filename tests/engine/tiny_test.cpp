@@ -4,8 +4,8 @@
 // is interpreted instruction by instruction.
 #include <gtest/gtest.h>
 
-#include "engine/barred_pictures.h"
 #include "engine/lane_check.h"
+#include "engine/masked_pictures.h"
 #include "gigaray/reconstruct.h"
 #include "support/depth_result.h"
 
@@ -57,7 +57,7 @@ TEST_P(TinyRuns, AllViewsOfMaskedPictures) {
   const auto [preset, is_grid] = GetParam();
   AnalyticField field =
       analytic_field(25, 21, is_grid ? grid_of_views(2, 2) : row_of_views(3), {{0.6, 5}});
-  field.light_field.pixels = std::make_shared<BarredPictures>(field.light_field.pixels, 9, 12);
+  field.light_field.pixels = with_bar(field.light_field.pixels, 9, 12);
   DepthOptions options = preset_options(preset);
   options.disparity = {-0.5, 1.5};
   options.hypotheses = 9;

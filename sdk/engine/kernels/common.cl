@@ -271,11 +271,25 @@ static inline int2 block_bounds(__global const uchar* todo, __global const ushor
   return block;
 }
 
+// A sample with a red farther than this from the middle of all colours is that of no picture: a
+// masked pixel (kMaskedColour) has part in it, which the taps of cubic interpolation may also take
+// away.
+#define MASKED_BEYOND 1.5f
+
 // Catmull-Rom weights of the taps at -1, 0, 1, 2 for a fraction f in [0, 1).
 static inline float4 cubic_weights(float f) {
   const float f2 = f * f, f3 = f2 * f;
   return (float4)(-0.5f * f3 + f2 - 0.5f * f, 1.5f * f3 - 2.5f * f2 + 1.0f,
                   -1.5f * f3 + 2.0f * f2 + 0.5f * f, 0.5f * f3 - 0.5f * f2);
+}
+
+// The same, or linear ones.
+static inline float4 tap_weights(float f) {
+#if CUBIC
+  return cubic_weights(f);
+#else
+  return (float4)(0.0f, 1.0f - f, f, 0.0f);
+#endif
 }
 
 static inline vfloat interpolate_row(__global const float* x, float f, float4 w) {
@@ -285,6 +299,30 @@ static inline vfloat interpolate_row(__global const float* x, float f, float4 w)
   const vfloat left = VLOAD(x);
   return left + f * (VLOAD(x + 1) - left);
 #endif
+}
+
+// The colour that a view shows at one place; vectors hold the four taps of a row. Returns 0 where it
+// shows nothing of the scene.
+static inline int sample_pixel(__global const float* band, const BandParams p, int view, float x,
+                               float y, float* colour) {
+  float fx, fy;
+  const int xi = split_snapped(x, &fx), yi = split_snapped(y, &fy);
+  if (xi < 0 || xi + (fx > 0.0f) > p.width - 1 || yi < 0 || yi + (fy > 0.0f) > p.height - 1) return 0;
+  const float4 wx = tap_weights(fx), wy = tap_weights(fy);
+  __global const float* at = band_row(band, p, view, yi) + xi - 1;
+  __global const float* above = band_row(band, p, view, max(yi - 1, 0)) + xi - 1;
+  __global const float* below = band_row(band, p, view, min(yi + 1, p.height - 1)) + xi - 1;
+  __global const float* below2 = band_row(band, p, view, min(yi + 2, p.height - 1)) + xi - 1;
+  UNROLL
+  for (int c = 0; c < 3; ++c) {
+    const int o = c * p.stride;
+    float4 column = vload4(0, at + o);
+    if (fy > 0.0f)
+      column = wy.s0 * vload4(0, above + o) + wy.s1 * column + wy.s2 * vload4(0, below + o) +
+               wy.s3 * vload4(0, below2 + o);
+    colour[c] = dot(wx, column);
+  }
+  return fabs(colour[0] - 0.5f) <= MASKED_BEYOND;
 }
 
 // Where a view sees a block of LANES pixels: row, column of the first one, fractions in [0, 1).
@@ -345,10 +383,6 @@ static inline __attribute__((always_inline)) void sample_block(__global const fl
 // The last pixel of a row is there twice, for the tap to the right.
 
 #define TAP_WIDTH (CHANNELS > 3 ? 8 : 4)
-// A sample with a red farther than this from the middle of all colours is that of no picture: a
-// masked pixel (kMaskedColour) has part in it, which the taps of cubic interpolation may also take
-// away.
-#define MASKED_BEYOND 1.5f
 
 // Where another view sees LANES pixels, px, and how that place changes with the pixel.
 typedef struct {

@@ -11,15 +11,7 @@
 // The kernel is wider than that of a score. Pixels at the edge of a surface are mixed; views that shift
 // the sides against each other show other mixtures, and how far those are off tells which side has the
 // larger part.
-// One work-item per pixel; vectors hold the four taps of a row.
-
-static inline float4 side_taps(float f) {
-#if CUBIC
-  return cubic_weights(f);
-#else
-  return (float4)(0.0f, 1.0f - f, f, 0.0f);
-#endif
-}
+// One work-item per pixel.
 
 // The nearest estimate of each side; NaN where there is none.
 typedef struct {
@@ -66,28 +58,10 @@ static inline Sides sides_at(__global const float* disparity, const StripParams 
 // Kernel of the colour that a view shows at (x, y); below 0: it shows nothing there.
 static inline float side_kernel(__global const float* band, const BandParams p, int view, float x,
                                 float y, const float* own, float bandwidth) {
-  float fx, fy;
-  const int xi = split_snapped(x, &fx), yi = split_snapped(y, &fy);
-  if (xi < 0 || xi + (fx > 0.0f) > p.width - 1 || yi < 0 || yi + (fy > 0.0f) > p.height - 1)
-    return -1.0f;
-  const float4 wx = side_taps(fx), wy = side_taps(fy);
-  __global const float* at = band_row(band, p, view, yi) + xi - 1;
-  __global const float* above = band_row(band, p, view, max(yi - 1, 0)) + xi - 1;
-  __global const float* below = band_row(band, p, view, min(yi + 1, p.height - 1)) + xi - 1;
-  __global const float* below2 = band_row(band, p, view, min(yi + 2, p.height - 1)) + xi - 1;
-  float d2 = 0.0f, red = 0.0f;
+  float colour[3], d2 = 0.0f;
+  if (!sample_pixel(band, p, view, x, y, colour)) return -1.0f;
   UNROLL
-  for (int c = 0; c < 3; ++c) {
-    const int o = c * p.stride;
-    float4 column = vload4(0, at + o);
-    if (fy > 0.0f)
-      column = wy.s0 * vload4(0, above + o) + wy.s1 * column + wy.s2 * vload4(0, below + o) +
-               wy.s3 * vload4(0, below2 + o);
-    const float value = dot(wx, column);
-    if (c == 0) red = value;
-    d2 += (value - own[c]) * (value - own[c]);
-  }
-  if (fabs(red - 0.5f) > MASKED_BEYOND) return -1.0f;
+  for (int c = 0; c < 3; ++c) d2 += (colour[c] - own[c]) * (colour[c] - own[c]);
   return max(1.0f - sqrt(d2) / bandwidth, 0.0f);
 }
 

@@ -2,19 +2,11 @@
 // Copyright (c) 2026 The Gigaray authors
 // The reference view without its own noise: the colour of a pixel becomes the mean over the views along
 // its ray, each weighed by the triangle kernel of its colour around the pixel's own.
-//   band       [row][view][CHANNELS][stride]
+//   band       [slot][view][CHANNELS][stride]
 //   wanted     [v][pitch] bytes; 0: the pixel stays as it is
 //   disparity  [v][pitch]; NaN: the same
 //   means      [v][CHANNELS][stride], the layout of a band with one view; gradients are not written
-// One work-item per pixel; vectors hold the four taps of a row.
-
-static inline float4 ray_taps(float f) {
-#if CUBIC
-  return cubic_weights(f);
-#else
-  return (float4)(0.0f, 1.0f - f, f, 0.0f);
-#endif
-}
+// One work-item per pixel.
 
 __kernel void ray_mean(__global const float* band, const BandParams p, const StripParams strip,
                        __global const float* rays, __global const uchar* wanted,
@@ -32,28 +24,10 @@ __kernel void ray_mean(__global const float* band, const BandParams p, const Str
   const float d = disparity[pixel];
   const int num_views = isnan(d) || !wanted[pixel] ? 0 : p.num_views;
   for (int k = 0; k < num_views; ++k) {
-    float x, y, d_other, fx, fy;
-    if (!locate(rays, k, u, v, d, &x, &y, &d_other)) continue;
-    const int xi = split_snapped(x, &fx), yi = split_snapped(y, &fy);
-    if (xi < 0 || xi + (fx > 0.0f) > p.width - 1 || yi < 0 || yi + (fy > 0.0f) > p.height - 1)
-      continue;
-    const float4 wx = ray_taps(fx), wy = ray_taps(fy);
-    __global const float* at = band_row(band, p, k, yi) + xi - 1;
-    __global const float* above = band_row(band, p, k, max(yi - 1, 0)) + xi - 1;
-    __global const float* below = band_row(band, p, k, min(yi + 1, p.height - 1)) + xi - 1;
-    __global const float* below2 = band_row(band, p, k, min(yi + 2, p.height - 1)) + xi - 1;
-    float sample[3], d2 = 0.0f;
+    float x, y, d_other, sample[3], d2 = 0.0f;
+    if (!locate(rays, k, u, v, d, &x, &y, &d_other) || !sample_pixel(band, p, k, x, y, sample)) continue;
     UNROLL
-    for (int c = 0; c < 3; ++c) {
-      const int o = c * p.stride;
-      float4 column = vload4(0, at + o);
-      if (fy > 0.0f)
-        column = wy.s0 * vload4(0, above + o) + wy.s1 * column + wy.s2 * vload4(0, below + o) +
-                 wy.s3 * vload4(0, below2 + o);
-      sample[c] = dot(wx, column);
-      d2 += (sample[c] - own[c]) * (sample[c] - own[c]);
-    }
-    if (fabs(sample[0] - 0.5f) > MASKED_BEYOND) continue;
+    for (int c = 0; c < 3; ++c) d2 += (sample[c] - own[c]) * (sample[c] - own[c]);
     const float w = max(1.0f - sqrt(d2) / bandwidth, 0.0f);
     weights += w;
     UNROLL

@@ -68,14 +68,6 @@ static inline vfloat mean_kernel(vfloat sum, vfloat count, int min_views, float 
 // Vectors beside a block that hold the columns of the last taps.
 #define TAP_VECTORS ((3 + LANES - 1) / LANES)
 
-static inline float4 tap_weights(float f) {
-#if CUBIC
-  return cubic_weights(f);
-#else
-  return (float4)(0.0f, 1.0f - f, f, 0.0f);
-#endif
-}
-
 // LANES columns of neighbouring vectors, from column 1, 2 or 3 on. Through memory it would take
 // longer: a load that two stores have a part in waits for both.
 #if LANES == 1
