@@ -216,6 +216,7 @@ void run_partitions(int count, const std::function<void(Partition&)>& job) {
       team.fail(std::current_exception());
     }
   };
+  // Not tasks of the common pool: they wait for each other.
   std::vector<std::thread> others;
   try {
     for (int i = 1; i < count; ++i) others.emplace_back(work, i);
