@@ -96,7 +96,7 @@ int run(const std::string& command, const Run& what) {
                 kFailed);
   };
   try {
-    what(control);
+    control.stop_or_fail([&] { what(control); });
     // A full disk or a closed pipe shows when the buffer is written at last.
     if (std::fflush(stdout) != 0 || std::ferror(stdout)) return fail_to_print(errno);
   } catch (const Error& error) {

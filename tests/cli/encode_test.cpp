@@ -169,7 +169,8 @@ TEST_F(EncodeCommand, AnInterruptLeavesNothing) {
   kill(child, SIGINT);
   int status = 0;
   waitpid(child, &status, 0);
-  EXPECT_TRUE(WIFEXITED(status) && (WEXITSTATUS(status) == 130 || WEXITSTATUS(status) == 0));
+  EXPECT_TRUE(WIFEXITED(status) && (WEXITSTATUS(status) == 130 || WEXITSTATUS(status) == 0))
+      << status << " " << text_of(".err");
   std::set<std::string> after = names_in(".");
   if (WEXITSTATUS(status) == 0) after.erase("x.grl");  // it was done before the signal came
   EXPECT_EQ(after, before);

@@ -79,6 +79,24 @@ TEST_F(Signals, AtAnyMomentEitherNothingOrAllWasKept) {
   EXPECT_GT(stopped, 0);
 }
 
+TEST_F(Signals, WhileKernelsAreBuiltIsAStopToo) {
+  // LLVM, which PoCL builds with, handles signals too while it does: it throws away its files.
+  ASSERT_EQ(run("synth planes -o made --views 3 --width 48 --height 37").exit_code, 0);
+  for (int i = 0; i < 30; ++i) {
+    const pid_t child = start({"depth", "made", "-o", "out"});
+    ASSERT_TRUE(wait_until([&] { return text_of(".err").find("level 0") != std::string::npos; }));
+    std::this_thread::sleep_for(std::chrono::milliseconds(5 * i));
+    kill(child, SIGINT);
+    const int status = status_of(child);
+    const bool kept = fs::exists(folder / "out/gigaray.json");
+    if (WIFEXITED(status)) {
+      EXPECT_EQ(WEXITSTATUS(status), kept ? 0 : 130) << text_of(".err");
+    }
+    EXPECT_TRUE(kept || !fs::exists(folder / "out"));
+    fs::remove_all(folder / "out");
+  }
+}
+
 TEST_F(Signals, APipeThatNobodyReadsDoesNotStopTheWork) {
   const std::string command = "cd '" + folder.string() + "' && '" + GIGARAY_PROGRAM +
                               "' synth planes -o out --views 5 2>&1 | head -c 1 >.out";

@@ -264,6 +264,11 @@ Reconstruction reconstruct(const LightField& light_field, const DepthOptions& op
 
 Reconstruction Estimator::reconstruct(const LightField& light_field, const DepthOptions& options,
                                       const RunControl& control) const {
+  return control.stop_or_fail([&] { return compute(light_field, options, control); });
+}
+
+Reconstruction Estimator::compute(const LightField& light_field, const DepthOptions& options,
+                                  const RunControl& control) const {
   auto impl = std::make_unique<Reconstruction::Impl>();
   LightField seen;
   std::string job;
@@ -342,6 +347,12 @@ ScoreCurve probe(const LightField& light_field, const DepthOptions& options,
 
 ScoreCurve Estimator::probe(const LightField& light_field, const DepthOptions& options,
                             int view_idx, int u, int v, const RunControl& control) const {
+  return control.stop_or_fail(
+      [&] { return compute_curve(light_field, options, view_idx, u, v, control); });
+}
+
+ScoreCurve Estimator::compute_curve(const LightField& light_field, const DepthOptions& options,
+                                    int view_idx, int u, int v, const RunControl& control) const {
   const int width = light_field.width, height = light_field.height;
   if (view_idx < 0 || view_idx >= light_field.num_views() || u < 0 || u >= width || v < 0 ||
       v >= height)

@@ -31,6 +31,18 @@ class RunControl {
   void throw_if_cancelled() const {
     if (cancelled()) throw Error(ErrorCode::kCancelled, "stopped before the end; nothing was kept");
   }
+  /// What `call` returns. What it throws after cancel() becomes the stop that was asked for: a part
+  /// that watches for the same signal may fail over it, as PoCL's compiler does, which then throws
+  /// away its files.
+  template <class Call>
+  auto stop_or_fail(const Call& call) const {
+    try {
+      return call();
+    } catch (...) {
+      throw_if_cancelled();
+      throw;
+    }
+  }
   /// The last moment to stop: throws when cancel() was called; after it cancel() is without effect,
   /// since a result is being put in its place and "nothing was kept" would be wrong.
   void keep_result() const {

@@ -49,6 +49,11 @@ class Estimator {
   struct Reference {};
   explicit Estimator(Reference) {}
 
+  Reconstruction compute(const LightField& light_field, const DepthOptions& options,
+                         const RunControl& control) const;
+  ScoreCurve compute_curve(const LightField& light_field, const DepthOptions& options, int view_idx,
+                           int u, int v, const RunControl& control) const;
+
   std::vector<Device> devices_;
 };
 
