@@ -79,6 +79,7 @@ ordered_json options_json(const Reconstruction& result) {
           {"hypotheses", h.count},
           {"linear_rgb", o.score.linear_rgb},
           {"gradient", o.score.gradient},
+          {"remove_jpeg_blocks", o.score.remove_jpeg_blocks},
           {"smoothing", o.score.smoothing},
           {"bandwidth", o.score.bandwidth},
           {"gradient_bandwidth", o.score.gradient_bandwidth},

@@ -107,6 +107,7 @@ DepthOptions auto_options() {
   options.score.linear_rgb = false;
   options.score.cubic = true;
   options.score.gradient = true;
+  options.score.remove_jpeg_blocks = true;
   options.score.from_noise = true;
   options.score.ray_mean = true;
   options.score.mean_shift_iterations = 0;

@@ -10,6 +10,7 @@
 
 #include "gigaray/device.h"
 #include "gigaray/estimator.h"
+#include "gigaray/jpeg_blocks.h"
 #include "gigaray/kept_pictures.h"
 #include "gigaray/scene_estimates.h"
 #include "gigaray/smoothing.h"
@@ -45,6 +46,21 @@ HypothesisRange sample_range(const DepthOptions& options, const LightField& ligh
                 text.str() + ": takes " + std::to_string(long(count)) +
                     " hypotheses, 4096 is the most; give a narrower range or fewer hypotheses");
   return {range.min, range.max, std::max(int(count), 2)};
+}
+
+/// The pictures as the engine sees them, each read and cleaned once.
+LightField kept_and_cleaned(const LightField& light_field, const DepthOptions& options,
+                            const RunControl& control) {
+  check(light_field);
+  const auto keep = [&](const LightField& pictures) {
+    return KeptPictures::over(std::make_shared<KeptPictures>(options.memory_bytes), pictures);
+  };
+  LightField kept = keep(light_field);
+  if (!options.score.remove_jpeg_blocks) return kept;
+  LightField cleaned = without_jpeg_blocks(kept);
+  if (cleaned.pixels == kept.pixels) return kept;
+  control.message("the pictures were JPEG: its blocks are removed before they are compared");
+  return keep(cleaned);
 }
 
 struct Prepared {
@@ -276,8 +292,7 @@ Reconstruction Estimator::compute(const LightField& light_field, const DepthOpti
   {
     const StageTimer timer(impl->seconds, "prepare");
     check(light_field);
-    LightField given =
-        KeptPictures::over(std::make_shared<KeptPictures>(options.memory_bytes), light_field);
+    LightField given = kept_and_cleaned(light_field, options, control);
     DepthOptions wanted = options;
     require_direction(given, wanted, control);
     Prepared run = prepare(given, wanted, control);
@@ -325,14 +340,16 @@ Reconstruction Estimator::compute(const LightField& light_field, const DepthOpti
 
 Forecast forecast(const LightField& light_field, const DepthOptions& options,
                   const BackendChoice& backend) {
-  const Prepared run = prepare(light_field, options, RunControl{});
+  const Prepared run =
+      prepare(kept_and_cleaned(light_field, options, RunControl{}), options, RunControl{});
   if (backend.backend == "reference") return plan_run(run, std::nullopt, kHost).forecast;
   const std::string devices = opencl::stated_device(backend.device);
   return plan_run(run, joined(devices), limits_of(devices)).forecast;
 }
 
 double least_memory_bytes(const LightField& light_field, const DepthOptions& options) {
-  const Prepared run = prepare(light_field, options, RunControl{});
+  const Prepared run =
+      prepare(kept_and_cleaned(light_field, options, RunControl{}), options, RunControl{});
   return least_memory_limit(run.light_field, run.options, run.hypotheses, limits_of(""));
 }
 
@@ -361,7 +378,7 @@ ScoreCurve Estimator::compute_curve(const LightField& light_field, const DepthOp
                                                  std::to_string(width) + "x" +
                                                  std::to_string(height));
   check(light_field);
-  LightField given = light_field;
+  LightField given = kept_and_cleaned(light_field, options, control);
   DepthOptions wanted = options;
   require_direction(given, wanted, control);
   Prepared run = prepare(given, wanted, control);
@@ -394,7 +411,7 @@ ScoreCurve Estimator::compute_curve(const LightField& light_field, const DepthOp
     }
   }
   std::vector<std::uint8_t> bytes;
-  if (light_field.pixels->bit_depth() == 8) bytes.assign(encoded.begin(), encoded.end());
+  if (run.light_field.pixels->bit_depth() == 8) bytes.assign(encoded.begin(), encoded.end());
   const auto to_device = [&](auto& values) {
     RowsOnDevice to{workspace->allocate(values.size() * sizeof values[0]), rows.begin, int(loaded)};
     workspace->write(*to.memory, std::as_bytes(std::span(values)));
@@ -437,7 +454,7 @@ ScoreCurve Estimator::compute_curve(const LightField& light_field, const DepthOp
   curve.scores = workspace->scores_at(u, v);
   const float winner = workspace->get(disparity).row(v)[u];
   curve.confidence = workspace->get(contrast).row(v)[u];
-  const float most = float((1 << light_field.pixels->bit_depth()) - 1);
+  const float most = float((1 << run.light_field.pixels->bit_depth()) - 1);
   const Radiance unseen{kNoEstimate, kNoEstimate, kNoEstimate};
   curve.samples.assign(light_field.views.size(), unseen);
   for (std::size_t i = 0; i < loaded; ++i) {

@@ -31,6 +31,8 @@ struct ScoreOptions {
   float bandwidth = 0.02f;            ///< Kernel bandwidth h, colour in [0, 1]. > 0
   float gradient_bandwidth = 0.003f;  ///< The same for gradients. > 0; used with `gradient`
   float gradient_share = 0.7f;        ///< Share of the gradient in the kernel, 0 … 1
+  /// Pictures that show the rounding of JPEG are cleaned of its blocks first (jpeg_blocks.h).
+  bool remove_jpeg_blocks = false;
   float smoothing = 0;  ///< Gaussian that the pictures are smoothed by first, px; 0: none. 0 … 3
   /// Derive smoothing, both bandwidths and SupportOptions::sigma_colour from the noise of the
   /// pictures, and leave out ray_mean where they are clean.
