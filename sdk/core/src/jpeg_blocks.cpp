@@ -7,6 +7,7 @@
 #include <cmath>
 #include <memory>
 #include <numbers>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -111,26 +112,40 @@ void add_sizes(const FloatMap& plane, Sizes& sizes) {
   }
 }
 
+/// How well the sizes are multiples of a step, −1 … 1.
+double sharpness(std::span<const float> sizes, float step) {
+  double sum = 0;
+  for (const float size : sizes) sum += std::cos(2 * std::numbers::pi * size / step);
+  return sum / double(sizes.size());
+}
+
 /// The largest step that sizes, ascending, are multiples of; 0: they are of none, or too few.
-float step_of(const std::vector<float>& sizes) {
+float step_of(std::span<const float> sizes) {
   constexpr std::size_t kFewest = 24;
-  constexpr float kMultiples = 0.9f, kSharpness = 0.6f;
-  for (int step = 255; step > 1; --step) {
-    // None but 0 is smaller than half a step; a multiple of the step would leave many there.
-    const auto first = std::ranges::upper_bound(sizes, 0.5f * float(step));
-    const auto multiples = std::size_t(sizes.end() - first);
-    if (multiples < kFewest || float(multiples) < kMultiples * float(sizes.size())) continue;
-    double sum = 0;
-    for (auto size = first; size != sizes.end(); ++size)
-      sum += std::cos(2 * std::numbers::pi * *size / step);
-    if (sum > kSharpness * double(multiples)) return float(step);
+  constexpr double kMultiples = 0.9, kSharpness = 0.6;
+  // None but 0 is smaller than half a step; a multiple of the step would leave many there.
+  const auto multiples = [&](float step) {
+    const auto first = std::ranges::upper_bound(sizes, 0.5f * step);
+    const auto count = std::size_t(sizes.end() - first);
+    return count < kFewest || double(count) < kMultiples * double(sizes.size())
+               ? std::span<const float>()
+               : sizes.last(count);
+  };
+  for (float step = 255; step > 1; --step) {
+    const auto of_step = multiples(step);
+    if (of_step.empty() || sharpness(of_step, step) < kSharpness) continue;
+    // Its neighbour may fit better.
+    while (step > 2 && sharpness(of_step, step - 1) > sharpness(of_step, step)) --step;
+    return step;
   }
   return 0;
 }
 
 struct FoundTable {
-  JpegTable table;
-  int found = 0;  ///< steps that the picture shows; the others follow `usual`
+  JpegTable table = JpegTable::Ones();
+  int found = 0;         ///< steps that the picture shows
+  int beyond_doubt = 0;  ///< those that no pattern of the scene looks like
+  float sum_of_found = 0;
 };
 
 FoundTable find_table(Sizes sizes, const JpegTable& usual) {
@@ -142,9 +157,13 @@ FoundTable find_table(Sizes sizes, const JpegTable& usual) {
       std::vector<float>& of_frequency = sizes[std::size_t(k * kBlock + l)];
       std::ranges::sort(of_frequency);
       steps(k, l) = step_of(of_frequency);
-      if (steps(k, l) > 0) scales.push_back(steps(k, l) / usual(k, l));
+      if (steps(k, l) == 0) continue;
+      scales.push_back(steps(k, l) / usual(k, l));
+      ++result.found;
+      result.sum_of_found += steps(k, l);
+      // Coefficients that are all alike are a pattern of the scene perhaps.
+      result.beyond_doubt += of_frequency.back() > 1.5f * steps(k, l);
     }
-  result.found = int(scales.size());
   if (scales.empty()) return result;
   const auto middle = scales.begin() + long(scales.size() / 2);
   std::ranges::nth_element(scales, middle);
@@ -178,12 +197,21 @@ FloatMap rounded_elsewhere(const FloatMap& plane, const JpegTable& table) {
 
 class PixelsWithoutBlocks : public PixelSource {
  public:
-  explicit PixelsWithoutBlocks(std::shared_ptr<const PixelSource> pixels)
-      : pixels_(std::move(pixels)) {}
+  /// usual: what the centre view shows.
+  PixelsWithoutBlocks(std::shared_ptr<const PixelSource> pixels, JpegSteps usual)
+      : pixels_(std::move(pixels)), usual_(std::move(usual)) {}
   Image<std::uint16_t> read(int view_idx) const override {
     Image<std::uint16_t> picture = pixels_->read(view_idx);
     pixels_->let_go(view_idx);
-    if (const auto steps = find_jpeg_steps(picture)) return without_jpeg_blocks(picture, *steps);
+    if (auto steps = find_jpeg_steps(picture)) {
+      // Weak colours show too little in some views.
+      if (!steps->chroma) {
+        steps->chroma = usual_.chroma;
+        steps->chroma_width = usual_.chroma_width;
+        steps->chroma_height = usual_.chroma_height;
+      }
+      return without_jpeg_blocks(picture, *steps);
+    }
     for (std::uint16_t& value : picture) value = std::uint16_t(value * 257);
     return picture;
   }
@@ -192,25 +220,27 @@ class PixelsWithoutBlocks : public PixelSource {
 
  private:
   std::shared_ptr<const PixelSource> pixels_;
+  JpegSteps usual_;
 };
 
 }  // namespace
 
 std::optional<JpegSteps> find_jpeg_steps(const Image<std::uint16_t>& picture) {
-  constexpr int kFewestSteps = 4;
+  constexpr int kFewestSteps = 4, kFewestChroma = 2;
   const auto planes = to_planes(picture);
   Sizes sizes;
   add_sizes(planes[0], sizes);
   const FoundTable luma = find_table(std::move(sizes), kLuma);
-  if (luma.found < kFewestSteps) return std::nullopt;
+  if (luma.beyond_doubt < kFewestSteps) return std::nullopt;
   JpegSteps steps{luma.table, {}, 1, 1};
-  int most = kFewestSteps - 1;
+  // Means over more than a sample are multiples too, of a part of the steps.
+  float most = 0;
   for (const auto& [columns, rows] : {std::pair{1, 1}, {2, 1}, {2, 2}}) {
     Sizes of_both;
     for (const int plane : {1, 2}) add_sizes(means_of_cells(planes[plane], columns, rows), of_both);
     const FoundTable chroma = find_table(std::move(of_both), kChroma);
-    if (chroma.found <= most) continue;
-    most = chroma.found;
+    if (chroma.found < kFewestChroma || chroma.sum_of_found <= most) continue;
+    most = chroma.sum_of_found;
     steps.chroma = chroma.table;
     steps.chroma_width = columns;
     steps.chroma_height = rows;
@@ -248,9 +278,9 @@ Image<std::uint16_t> without_jpeg_blocks(const Image<std::uint16_t>& picture,
 }
 
 LightField without_jpeg_blocks(LightField light_field) {
-  if (light_field.pixels->bit_depth() == 8 &&
-      find_jpeg_steps(read_view(light_field, centre_view(light_field))))
-    light_field.pixels = std::make_shared<PixelsWithoutBlocks>(light_field.pixels);
+  if (light_field.pixels->bit_depth() != 8) return light_field;
+  if (const auto steps = find_jpeg_steps(read_view(light_field, centre_view(light_field))))
+    light_field.pixels = std::make_shared<PixelsWithoutBlocks>(light_field.pixels, *steps);
   return light_field;
 }
 

@@ -33,8 +33,9 @@ std::optional<JpegSteps> find_jpeg_steps(const Image<std::uint16_t>& picture);
 Image<std::uint16_t> without_jpeg_blocks(const Image<std::uint16_t>& picture,
                                          const JpegSteps& steps);
 
-/// The light field with views of 16 bit that are cleaned as they are read, each by its own steps;
-/// as it is, where its centre view shows none or where it has 16 bit already. Reads that view.
+/// The light field with views of 16 bit that are cleaned as they are read, each by its own steps
+/// (chroma that shows none by those of the centre view); as it is, where its centre view shows none
+/// or where it has 16 bit already. Reads that view.
 LightField without_jpeg_blocks(LightField light_field);
 
 }  // namespace gigaray
