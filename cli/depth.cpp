@@ -83,6 +83,7 @@ ordered_json options_json(const Reconstruction& result) {
           {"smoothing", o.score.smoothing},
           {"bandwidth", o.score.bandwidth},
           {"gradient_bandwidth", o.score.gradient_bandwidth},
+          {"gradient_share", o.score.gradient_share},
           {"mean_shift_iterations", o.score.mean_shift_iterations},
           {"edge_threshold", o.edge.threshold},
           {"edge_squared", o.edge.squared},

@@ -90,5 +90,34 @@ TEST(NoiseEstimate, BandwidthsGrowWithItFromALeastValue) {
   EXPECT_NO_THROW(noisy.check());
 }
 
+TEST(RayDoubt, ComesWithNoiseAndWithFewViews) {
+  EXPECT_EQ(ray_doubt(kLeadOfOwnPixel, 80), 0);
+  EXPECT_EQ(ray_doubt(kLeadOfOwnPixel, 16), 0);
+  EXPECT_EQ(ray_doubt(0.5, 80), 1);
+  EXPECT_EQ(ray_doubt(12, 1), 1);
+  EXPECT_GT(ray_doubt(2.3, 80), 0);
+  EXPECT_LT(ray_doubt(2.3, 80), 1);
+  EXPECT_GT(ray_doubt(12, 2), ray_doubt(12, 4));
+  EXPECT_GT(ray_doubt(12, 4), 0);
+}
+
+TEST(RayDoubt, WidensTheSupportInEvenSteps) {
+  const DepthOptions usual = auto_options();
+  DepthOptions sure = usual, halfway = usual, doubtful = usual, paper = paper_options();
+  apply_doubt(0, sure);
+  apply_doubt(0.4, halfway);
+  apply_doubt(1, doubtful);
+  apply_doubt(1, paper);
+  EXPECT_EQ(sure.support.radius, usual.support.radius);
+  EXPECT_EQ(sure.support.sigma_space, usual.support.sigma_space);
+  EXPECT_EQ(sure.score.gradient_share, usual.score.gradient_share);
+  EXPECT_EQ(halfway.support.radius, 6);
+  EXPECT_EQ(halfway.support.sigma_space, 6);
+  EXPECT_EQ(doubtful.support.radius, usual.support.radius_in_doubt);
+  EXPECT_EQ(doubtful.score.gradient_share, usual.score.gradient_share_in_doubt);
+  EXPECT_EQ(paper.support.radius, 0);
+  for (const DepthOptions& options : {sure, halfway, doubtful}) EXPECT_NO_THROW(options.check());
+}
+
 }  // namespace
 }  // namespace gigaray::testing_support

@@ -44,10 +44,13 @@ void DepthOptions::check() const {
   in_range("score.bandwidth", score.bandwidth, kTiny, kLarge);
   in_range("score.gradient_bandwidth", score.gradient_bandwidth, kTiny, kLarge);
   in_range("score.gradient_share", score.gradient_share, 0.0f, 1.0f);
+  in_range("score.gradient_share_in_doubt", score.gradient_share_in_doubt, 0.0f, 1.0f);
   in_range("score.mean_shift_iterations", score.mean_shift_iterations, 0, 100);
   in_range("score.min_views", score.min_views, 0.0f, 1.0f);
   in_range("score.floor_views", score.floor_views, 0.0f, 1.0f);
   in_range("support.radius", support.radius, 0, 8);
+  if (score.from_noise && support.radius > 0)
+    in_range("support.radius_in_doubt", support.radius_in_doubt, support.radius, 8);
   if (support.radius > 0 && score.min_views > 0)
     throw Error(ErrorCode::kInvalidArgument,
                 "support.radius above 0 needs score.min_views 0: every score must be a number");
@@ -109,11 +112,13 @@ DepthOptions auto_options() {
   options.score.gradient = true;
   options.score.remove_jpeg_blocks = true;
   options.score.from_noise = true;
+  options.score.gradient_share_in_doubt = 0.9f;
   options.score.ray_mean = true;
   options.score.mean_shift_iterations = 0;
   options.score.min_views = 0;
   options.score.floor_views = 0.25f;
   options.support.radius = 4;
+  options.support.radius_in_doubt = 8;
   options.support.slanted = true;
   options.support.half_planes = true;
   options.support.choose_sides = true;

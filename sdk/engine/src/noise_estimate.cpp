@@ -145,9 +145,28 @@ NoiseEstimate estimate_noise(const LightField& light_field, const HypothesisRang
 }
 
 void apply_noise(const NoiseEstimate& noise, DepthOptions& options) {
-  options.score.bandwidth = std::max(kLeastBandwidth, float(4 * noise.colour));
-  options.score.gradient_bandwidth = std::max(kLeastGradientBandwidth, float(2 * noise.gradient));
+  options.score.bandwidth = std::max(kLeastBandwidth, float(3 * noise.colour));
+  options.score.gradient_bandwidth = std::max(kLeastGradientBandwidth, float(1.5 * noise.gradient));
   options.support.sigma_colour = float(std::max(0.03, 2 * noise.colour));
+}
+
+double ray_doubt(double lead, int others) {
+  constexpr double kRamp = 0.4, kMany = 16;
+  const double of_noise = (kLeadOfOwnPixel - lead) / kRamp;
+  const double of_views = (1.0 / others - 1 / kMany) / (1 - 1 / kMany);
+  return std::clamp(std::max(of_noise, of_views), 0.0, 1.0);
+}
+
+void apply_doubt(double doubt, DepthOptions& options) {
+  SupportOptions& support = options.support;
+  ScoreOptions& score = options.score;
+  score.gradient_share += float(doubt) * (score.gradient_share_in_doubt - score.gradient_share);
+  if (support.radius == 0) return;
+  // In even steps: each radius has kernels of its own.
+  const int radius =
+      support.radius + 2 * int(std::lround(doubt * (support.radius_in_doubt - support.radius) / 2));
+  support.sigma_space *= float(radius) / float(support.radius);
+  support.radius = radius;
 }
 
 }  // namespace gigaray

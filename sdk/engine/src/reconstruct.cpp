@@ -74,8 +74,12 @@ void adapt_to_noise(Prepared& run, const RunControl& control) {
   const LightField original = run.light_field;
   NoiseEstimate noise = estimate_noise(original, run.hypotheses, control);
   run.options.score.ray_mean = run.options.score.ray_mean && noise.lead < kLeadOfOwnPixel;
+  const int seen_with =
+      std::visit([&](const auto& s) { return int(s.partners(centre_view(original)).size()) - 1; },
+                 make_sampler(original));
+  apply_doubt(ray_doubt(noise.lead, std::max(seen_with, 1)), run.options);
   run.options.score.smoothing = 0;
-  for (const float sigma : {0.7f, 1.0f, 1.3f}) {
+  for (const float sigma : {0.7f, 1.0f}) {
     if (noise.lead >= kLeadWithoutSmoothing) break;
     const LightField smooth = smoothed(original, sigma);
     const NoiseEstimate left = estimate_noise(smooth, run.hypotheses, control);
@@ -165,6 +169,12 @@ Prepared prepare(const LightField& light_field, const DepthOptions& wanted,
   return run;
 }
 
+/// With all that the pictures may ask for.
+DepthOptions widest(DepthOptions options) {
+  if (options.score.from_noise && options.support.radius > 0) apply_doubt(1, options);
+  return options;
+}
+
 /// Fills in what the pictures decide. The plan of the memory comes before: it holds for all
 /// pictures, so that the forecast, which looks at none, and the run say the same.
 void adapt_to_pictures(Prepared& run, const RunControl& control) {
@@ -232,7 +242,7 @@ constexpr DeviceLimits kHost{0, std::numeric_limits<double>::infinity(), true, 1
 /// they are stated; none: the reference.
 MemoryPlan plan_run(const Prepared& run, const std::optional<std::string>& devices,
                     const DeviceLimits& limits) {
-  MemoryPlan plan = plan_memory(run.light_field, run.options, run.hypotheses, limits);
+  MemoryPlan plan = plan_memory(run.light_field, widest(run.options), run.hypotheses, limits);
   if (!devices || opencl::kernels_are_ready(kernel_job(run, *devices))) {
     plan.forecast.memory_bytes -= plan.compiler_bytes;
     plan.forecast.memory_all_bytes -= plan.compiler_bytes;
@@ -287,7 +297,7 @@ Reconstruction Estimator::compute(const LightField& light_field, const DepthOpti
                                   const RunControl& control) const {
   auto impl = std::make_unique<Reconstruction::Impl>();
   LightField seen;
-  std::string job;
+  std::vector<std::string> jobs;  ///< before and after the pictures were looked at
   std::vector<std::unique_ptr<Workspace>> workspaces;
   {
     const StageTimer timer(impl->seconds, "prepare");
@@ -300,6 +310,7 @@ Reconstruction Estimator::compute(const LightField& light_field, const DepthOpti
     impl->light_field.pixels = light_field.pixels;
     if (devices_.empty()) {
       impl->plan = plan_run(run, std::nullopt, kHost);
+      adapt_to_pictures(run, control);
     } else {
       std::string selection;
       std::vector<DeviceInfo> infos;
@@ -307,13 +318,14 @@ Reconstruction Estimator::compute(const LightField& light_field, const DepthOpti
         selection += (selection.empty() ? "" : ",") + device.selection();
         infos.push_back(device.info());
       }
-      job = kernel_job(run, selection);
+      jobs.push_back(kernel_job(run, selection));
       impl->plan = plan_run(run, selection, limits_of(infos));
-      if (!opencl::kernels_are_ready(job))
+      adapt_to_pictures(run, control);
+      jobs.push_back(kernel_job(run, selection));
+      if (!opencl::kernels_are_ready(jobs.back()))
         control.message(std::string("compiling kernels for this device") +
                         (opencl::cache_folder() ? ", once" : ""));
     }
-    adapt_to_pictures(run, control);
     seen = run.light_field;
     impl->options = run.options;
     impl->hypotheses = run.hypotheses;
@@ -327,7 +339,7 @@ Reconstruction Estimator::compute(const LightField& light_field, const DepthOpti
                                          : "; " + workspace->description();
   RunResult result =
       run_pipeline({seen, impl->options, impl->hypotheses, impl->plan, control}, workspaces);
-  if (!devices_.empty()) opencl::note_ready_kernels(job);
+  for (const std::string& job : jobs) opencl::note_ready_kernels(job);
   impl->maps = std::move(result.maps);
   impl->searches = std::move(result.searches);
   impl->active = active_views(seen, impl->options);
@@ -350,7 +362,7 @@ Forecast forecast(const LightField& light_field, const DepthOptions& options,
 double least_memory_bytes(const LightField& light_field, const DepthOptions& options) {
   const Prepared run =
       prepare(kept_and_cleaned(light_field, options, RunControl{}), options, RunControl{});
-  return least_memory_limit(run.light_field, run.options, run.hypotheses, limits_of(""));
+  return least_memory_limit(run.light_field, widest(run.options), run.hypotheses, limits_of(""));
 }
 
 ScoreCurve probe(const LightField& light_field, const DepthOptions& options,

@@ -34,8 +34,8 @@ struct ScoreOptions {
   /// Pictures that show the rounding of JPEG are cleaned of its blocks first (jpeg_blocks.h).
   bool remove_jpeg_blocks = false;
   float smoothing = 0;  ///< Gaussian that the pictures are smoothed by first, px; 0: none. 0 … 3
-  /// Derive smoothing, both bandwidths and SupportOptions::sigma_colour from the noise of the
-  /// pictures, and leave out ray_mean where they are clean.
+  /// Derive smoothing, both bandwidths, their shares and the support from the noise of the pictures
+  /// and the number of views, and leave out ray_mean where they are clean.
   bool from_noise = false;
   /// Between the two looks of SupportOptions::slanted the reference view is replaced by the mean of
   /// what all views see along its rays: its own noise would limit the score. Needs gradient and
@@ -49,6 +49,8 @@ struct ScoreOptions {
   /// share of all views. 0 … 1. With `gradient` only other views count, here and above, and those
   /// that are missing to this share count as undecided.
   float floor_views = 0;
+  /// With from_noise: the share where rays alone leave much open (ray_doubt()), 0 … 1.
+  float gradient_share_in_doubt = 0.7f;
 };
 
 /// The same where the reference's pixels are means along rays (ScoreOptions::ray_mean): samples
@@ -78,6 +80,9 @@ struct SupportOptions {
   float small_price = 0.05f;        ///< > 0
   float jump_price = 0.5f;          ///< > 0
   float jump_sigma_colour = 0.05f;  ///< > 0
+  /// With ScoreOptions::from_noise: the radius where rays alone leave much open (ray_doubt()), and
+  /// sigma_space grows alike. At least `radius`, at most 8; plans of memory hold for it.
+  int radius_in_doubt = 0;
 };
 
 /// The winner, its confidence and the bilateral median (eq. 6–8).

@@ -58,11 +58,18 @@ NoiseEstimate estimate_noise(const LightField& light_field, const HypothesisRang
 
 /// NoiseEstimate::lead of pictures (docs/accuracy.md): above the first, a single ray tells enough
 /// and smoothing would only cost; above the second the pixel's own value is better than a mean
-/// along its ray. Clean pictures have 2.6 and more, JPEG of quality 75 has 0.9 to 1.7, noise of 2 %
-/// of the range 0.3 to 0.7 where the texture is weak.
-inline constexpr double kLeadWithoutSmoothing = 1.0, kLeadOfOwnPixel = 1.7;
+/// along its ray. Clean pictures have 2.6 and more, cleaned JPEG of quality 90 and 75 has 1.5 to
+/// 2.3, noise of 2 % of the range 0.3 to 0.7 where the texture is weak.
+inline constexpr double kLeadWithoutSmoothing = 1.0, kLeadOfOwnPixel = 2.5;
 
 /// Sets the bandwidths and sigma_colour of options from the noise (ACCURACY: the measured rule).
 void apply_noise(const NoiseEstimate& noise, DepthOptions& options);
+
+/// How much rays alone leave open, 0 … 1: in noisy pictures, and where a view is compared with few
+/// others. lead: of the pictures before smoothing. others: ≥ 1.
+double ray_doubt(double lead, int others);
+
+/// Gives neighbours and gradients more weight, from the usual to that in doubt. doubt: 0 … 1.
+void apply_doubt(double doubt, DepthOptions& options);
 
 }  // namespace gigaray
