@@ -136,19 +136,27 @@ NoiseEstimate estimate_window_noise(const LightField& light_field,
   const AnySampler sampler = make_sampler(views);
   const int width = views.width, height = views.height, rows = std::min(kRows, height);
 
-  std::vector<Band> bands(static_cast<std::size_t>(rows));
+  std::vector<RowRange> needed;
   std::vector<int> centres;
+  int rows_of_all = 0;
   for (int i = 0; i < rows; ++i) {
     const int v = int((i + 0.5) * height / rows);
-    const RowRange needed = std::visit(
+    centres.push_back(v);
+    needed.push_back(std::visit(
         [&](const auto& s) {
           return s.rows_needed(0, grown({v, v + 1}, kReach, height), hypotheses, height);
         },
-        sampler);
-    centres.push_back(v);
-    bands[i] = Band{{0, width, height}, needed, views.num_views(), reference::kMaxChannels, {}};
-    bands[i].data.resize(std::size_t(needed.size()) * bands[i].num_views * bands[i].channels *
-                         width);
+        sampler));
+    rows_of_all += needed.back().size();
+  }
+  // Of unstructured views a row may need much of each: then all rows once.
+  const bool together = rows_of_all > height;
+  if (together) needed.assign(1, {0, height});
+  std::vector<Band> bands;
+  for (const RowRange& range : needed) {
+    Band band{{0, width, height}, range, views.num_views(), reference::kMaxChannels, {}};
+    band.data.resize(std::size_t(range.size()) * band.num_views * band.channels * width);
+    bands.push_back(std::move(band));
   }
   parallel_for(
       views.num_views(),
@@ -159,7 +167,7 @@ NoiseEstimate estimate_window_noise(const LightField& light_field,
       [&](int done) { control.progress("noise", done, views.num_views()); },
       pictures_at_once(views));
 
-  std::vector<std::vector<Distance>> found(bands.size());
+  std::vector<std::vector<Distance>> found(centres.size());
   parallel_for(
       rows,
       [&](int i) {
@@ -170,7 +178,8 @@ NoiseEstimate estimate_window_noise(const LightField& light_field,
           const double step = (hypotheses.max - hypotheses.min) / (2 * way);
           const auto distance = std::visit(
               [&](const auto& s) {
-                return distance_at_best(bands[i], s, u, centres[i], hypotheses, step);
+                return distance_at_best(bands[together ? 0 : std::size_t(i)], s, u, centres[i],
+                                        hypotheses, step);
               },
               sampler);
           if (distance) found[i].push_back(*distance);
