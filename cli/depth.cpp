@@ -92,6 +92,9 @@ ordered_json options_json(const Reconstruction& result) {
           {"accepted_above", o.winner.min_confidence},
           {"calibrated_confidence", o.winner.calibrated},
           {"ray_mean", o.score.ray_mean},
+          {"jump_price", o.support.jump_price},
+          {"jump_sigma_colour", o.support.jump_sigma_colour},
+          {"fill_hidden", o.support.fill_hidden},
           {"refine", o.winner.refine},
           {"propagation_tolerance", o.propagation.tolerance}};
 }

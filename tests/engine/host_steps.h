@@ -157,6 +157,27 @@ class HostSteps {
     down(out, rows, chosen);
     down(out_confidence, rows, chosen_confidence);
   }
+  void find_hidden(int ref, RowRange rows, float apart, const StripMap<std::uint8_t>& todo,
+                   const StripMap<float>& disparity, const StripMap<float>& confidence,
+                   StripMap<std::uint8_t>& hidden) {
+    const auto out = workspace_->make_map<std::uint8_t>(shape_.width, shape_.rows());
+    workspace_->find_hidden(ref, rows, apart, up(todo), up(disparity), up(confidence), out);
+    down(out, rows, hidden);
+  }
+  void find_specks(RowRange rows, float apart, const StripMap<std::uint8_t>& todo,
+                   const StripMap<float>& disparity, const StripMap<std::uint8_t>& hidden,
+                   StripMap<std::uint8_t>& guessed) {
+    const auto out = workspace_->make_map<std::uint8_t>(shape_.width, shape_.rows());
+    workspace_->find_specks(rows, apart, up(todo), up(disparity), up(hidden), out);
+    down(out, rows, guessed);
+  }
+  void fill_hidden(RowRange rows, float apart, const StripMap<std::uint8_t>& guessed,
+                   StripMap<float>& disparity, StripMap<float>& confidence) {
+    const auto filled = up(disparity), sure = up(confidence);
+    workspace_->fill_hidden(rows, apart, up(guessed), filled, sure);
+    down(filled, rows, disparity);
+    down(sure, rows, confidence);
+  }
   void mean_radiance(int ref, RowRange rows, const StripMap<float>& disparity,
                      StripMap<Radiance>& radiance) {
     const auto out = up(radiance);

@@ -379,6 +379,44 @@ std::pair<Difference, Difference> compare_sides(ParityBench<S>& bench, int ref, 
   return {evidence, choice};
 }
 
+/// What is hidden from the views that `ref` is compared with, what is guessed and what it is filled
+/// with, on both workspaces.
+template <RaySampler S>
+std::array<Difference, 3> compare_hidden(ParityBench<S>& bench, int ref) {
+  const RowRange rows = bench.rows(), around = bench.around(kSpeckReach);
+  const auto disparity = bench.stepped_disparity(bench.around(kSpeckReach + kHiddenReach));
+  const auto confidence = bench.random_values(bench.around(kSpeckReach + kHiddenReach));
+  const auto todo = bench.random_todo(around);
+  const float apart = 1.3f * float(bench.hypotheses().step());
+  StripMap<std::uint8_t> hidden(bench.width(), around), other_hidden = hidden;
+  bench.reference->find_hidden(ref, around, apart, todo, disparity, confidence, hidden);
+  bench.opencl->find_hidden(ref, around, apart, todo, disparity, confidence, other_hidden);
+  StripMap<std::uint8_t> guessed(bench.width(), rows), other_guessed = guessed;
+  bench.reference->find_specks(rows, apart, todo, disparity, hidden, guessed);
+  bench.opencl->find_specks(rows, apart, todo, disparity, hidden, other_guessed);
+  StripMap<float> filled = disparity, other_filled = disparity, sure = confidence,
+                  other_sure = confidence;
+  bench.reference->fill_hidden(rows, apart, guessed, filled, sure);
+  bench.opencl->fill_hidden(rows, apart, guessed, other_filled, other_sure);
+  std::array<Difference, 3> differences;
+  const auto flags = [&](const StripMap<std::uint8_t>& a, const StripMap<std::uint8_t>& b,
+                         RowRange compared, Difference& difference) {
+    for (int v = compared.begin; v < compared.end; ++v)
+      for (int u = 0; u < bench.width(); ++u) {
+        ++difference.values;
+        difference.apart += a.row(v)[u] != b.row(v)[u];
+      }
+  };
+  flags(hidden, other_hidden, around, differences[0]);
+  flags(guessed, other_guessed, rows, differences[1]);
+  for (int v = rows.begin; v < rows.end; ++v)
+    for (int u = 0; u < bench.width(); ++u) {
+      differences[2].add(filled.row(v)[u], other_filled.row(v)[u]);
+      differences[2].add(sure.row(v)[u], other_sure.row(v)[u]);
+    }
+  return differences;
+}
+
 /// Scores of all pixels to do, those beyond their bounds too. `unstable`: larger differences are
 /// counted.
 template <RaySampler S>

@@ -202,6 +202,17 @@ TYPED_TEST(Parity, SidesOfJumps) {
   }
 }
 
+TYPED_TEST(Parity, WhatIsHiddenAndWhatFillsIt) {
+  for (const ParityCase& size : parity_cases()) {
+    if (size.level > 0) continue;  // a step of the finest level
+    ParityBench<TypeParam> bench(size, auto_options());
+    const auto [hidden, guessed, filled] = compare_hidden(bench, 2);
+    this->expect_within("what is hidden", hidden, 0);
+    this->expect_within("what is guessed", guessed, 0);
+    this->expect_within("what fills it", filled, 0);
+  }
+}
+
 TYPED_TEST(Parity, RayMeansAndWhatIsScoredAgainstThem) {
   for (const ParityCase& size : parity_cases()) {
     DepthOptions options = auto_options();

@@ -77,7 +77,7 @@ TEST(Pipeline, SlantedPlanesAreFound) {
     const DepthResult slanted = run(field.light_field, options);
     EXPECT_GT(share_within(slanted, field.disparity, 0.07), 0.9) << views_s << "x" << views_t;
     options.support.slanted = options.support.half_planes = options.score.ray_mean = false;
-    options.support.choose_sides = false;
+    options.support.choose_sides = options.support.fill_hidden = false;
     EXPECT_GT(share_within(slanted, field.disparity, 0.02),
               share_within(run(field.light_field, options), field.disparity, 0.02));
   }

@@ -42,6 +42,16 @@ namespace gigaray {
 #define SIDE_LEAD 0.1f
 #define SIDE_LEAST_AREA 1e-6f  // of a pixel in another view, px²
 
+/// What few views can't confirm, see hidden.cl. Estimates are at one place in a view when they are
+/// no farther from it than HIDDEN_NEAR px; they are looked for less than HIDDEN_REACH rows away. A
+/// speck is what less than SPECK_SHARE of the estimates within SPECK_RADIUS share. What is filled is
+/// FILLED_CONFIDENCE as sure as what it continues.
+#define HIDDEN_REACH 16
+#define HIDDEN_NEAR 0.75f
+#define SPECK_RADIUS 5
+#define SPECK_SHARE 0.3f
+#define FILLED_CONFIDENCE 0.25f
+
 /// A band: rows [row_begin, row_end) of all views at one level, as floats
 /// [slot][view][channel][stride], pixel u at GIGARAY_PAD + u. Row row_begin is in first_slot, and
 /// after the last slot comes the first.

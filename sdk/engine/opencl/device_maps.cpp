@@ -158,6 +158,33 @@ void DeviceWorkspace::choose_sides(int ref, RowRange rows, float jump, const Map
   kernel.run_pixels(band_.width, rows.size());
 }
 
+void DeviceWorkspace::find_hidden(int ref, RowRange rows, float apart,
+                                  const Map<std::uint8_t>& todo, const Map<float>& disparity,
+                                  const Map<float>& confidence, const Map<std::uint8_t>& hidden) {
+  LaneKernel& kernel = lane_kernel("hidden", "", "find_hidden");
+  kernel.kernel.set_args(band_, strip(ref, rows), rays(ref), buffer_of(todo), buffer_of(disparity),
+                         buffer_of(confidence), float(setup_.hypotheses.min),
+                         hidden_steps(setup_.hypotheses, apart), apart, buffer_of(hidden));
+  kernel.run_pixels(band_.width, rows.size());
+}
+
+void DeviceWorkspace::find_specks(RowRange rows, float apart, const Map<std::uint8_t>& todo,
+                                  const Map<float>& disparity, const Map<std::uint8_t>& hidden,
+                                  const Map<std::uint8_t>& guessed) {
+  LaneKernel& kernel = lane_kernel("hidden", "", "find_specks");
+  kernel.kernel.set_args(strip(rows), band_.height, buffer_of(todo), buffer_of(disparity),
+                         buffer_of(hidden), apart, buffer_of(guessed));
+  kernel.run_pixels(band_.width, rows.size());
+}
+
+void DeviceWorkspace::fill_hidden(RowRange rows, float apart, const Map<std::uint8_t>& guessed,
+                                  const Map<float>& disparity, const Map<float>& confidence) {
+  LaneKernel& kernel = lane_kernel("hidden", "", "fill_hidden");
+  kernel.kernel.set_args(strip(rows), buffer_of(guessed), apart, buffer_of(disparity),
+                         buffer_of(confidence));
+  kernel.run_pixels(band_.width, rows.size());
+}
+
 void DeviceWorkspace::bilateral_median(int ref, RowRange rows, int radius, float tolerance,
                                        const Map<float>& in, const Map<float>& out) {
   const bool bilateral = std::isfinite(tolerance);

@@ -11,6 +11,7 @@ namespace gigaray::opencl {
 namespace {
 
 static_assert(kMapPad == GIGARAY_PAD);
+static_assert(kHiddenReach == HIDDEN_REACH && kSpeckReach == SPECK_RADIUS);
 static_assert(kSideReach == SIDE_WINDOW + SIDE_VIEW_REACH && kSideColours == SIDE_COLOURS);
 static_assert(kScanlineBlock == SCANLINE_BLOCK && kScanlineReach == SCANLINE_REACH);
 
@@ -343,6 +344,7 @@ std::vector<KernelFile> DeviceWorkspace::usual_files() const {
   if (options.support.radius > 0) files.push_back({"score_support", support_defines()});
   if (options.support.slanted) files.push_back({"slope_fit", ""});
   if (options.support.choose_sides) files.push_back({"jump_sides", sides_defines()});
+  if (options.support.fill_hidden) files.push_back({"hidden", ""});
   if (options.support.scanline) files.push_back({"scanline", ""});
   if (options.winner.weigh_by_edge) files.push_back({"edge_confidence", edge_defines()});
   return files;

@@ -111,6 +111,14 @@ class DeviceWorkspace : public Workspace {
   void choose_sides(int ref, RowRange rows, float jump, const Map<float>& disparity,
                     const Map<float>& confidence, const Map<float>& evidence,
                     const Map<float>& chosen, const Map<float>& chosen_confidence) override;
+  void find_hidden(int ref, RowRange rows, float apart, const Map<std::uint8_t>& todo,
+                   const Map<float>& disparity, const Map<float>& confidence,
+                   const Map<std::uint8_t>& hidden) override;
+  void find_specks(RowRange rows, float apart, const Map<std::uint8_t>& todo,
+                   const Map<float>& disparity, const Map<std::uint8_t>& hidden,
+                   const Map<std::uint8_t>& guessed) override;
+  void fill_hidden(RowRange rows, float apart, const Map<std::uint8_t>& guessed,
+                   const Map<float>& disparity, const Map<float>& confidence) override;
   void bilateral_median(int ref, RowRange rows, int radius, float tolerance, const Map<float>& in,
                         const Map<float>& out) override;
   void slope_fit(int ref, RowRange rows, const Map<std::uint8_t>& todo, const Map<float>& in,

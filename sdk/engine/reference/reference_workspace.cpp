@@ -12,7 +12,7 @@
 #include "edge_confidence.h"
 #include "estimates.h"
 #include "gigaray/samplers/any_sampler.h"
-#include "jump_sides.h"
+#include "hidden.h"
 #include "masks.h"
 #include "mean_radiance.h"
 #include "propagation.h"
@@ -398,6 +398,26 @@ class ReferenceWorkspace : public Workspace {
     reference::choose_sides(own.band, own.view, rows, jump, setup_.options.support.sigma_colour,
                             view(disparity), view(confidence), view(evidence), view(chosen),
                             view(chosen_confidence));
+  }
+  void find_hidden(int ref, RowRange rows, float apart, const Map<std::uint8_t>& todo,
+                   const Map<float>& disparity, const Map<float>& confidence,
+                   const Map<std::uint8_t>& hidden) override {
+    for (int v = rows.begin; v < rows.end; ++v)
+      for (int u = 0; u < disparity.width(); ++u)
+        view(hidden).row(v)[u] =
+            view(todo).row(v)[u] && !std::isnan(view(disparity).row(v)[u]) &&
+            reference::is_hidden(sampler_, place(ref), u, v, band_.shape.height, setup_.hypotheses,
+                                 apart, view(disparity), view(confidence));
+  }
+  void find_specks(RowRange rows, float apart, const Map<std::uint8_t>& todo,
+                   const Map<float>& disparity, const Map<std::uint8_t>& hidden,
+                   const Map<std::uint8_t>& guessed) override {
+    reference::find_specks(rows, band_.shape.height, apart, view(todo), view(disparity),
+                           view(hidden), view(guessed));
+  }
+  void fill_hidden(RowRange rows, float apart, const Map<std::uint8_t>& guessed,
+                   const Map<float>& disparity, const Map<float>& confidence) override {
+    reference::fill_hidden(rows, apart, view(guessed), view(disparity), view(confidence));
   }
   void bilateral_median(int ref, RowRange rows, int radius, float tolerance, const Map<float>& in,
                         const Map<float>& out) override {

@@ -73,6 +73,8 @@ void DepthOptions::check() const {
   if (support.choose_sides && !(support.slanted && score.gradient))
     throw Error(ErrorCode::kInvalidArgument,
                 "support.choose_sides needs support.slanted and score.gradient");
+  if (support.fill_hidden && !support.choose_sides)
+    throw Error(ErrorCode::kInvalidArgument, "support.fill_hidden needs support.choose_sides");
   in_range("winner.median_radius", winner.median_radius, 0, 8);
   in_range("winner.median_tolerance", winner.median_tolerance, kTiny, kLarge);
   in_range("winner.min_relief", winner.min_relief, 0.0f, 1.0f);
@@ -122,6 +124,7 @@ DepthOptions auto_options() {
   options.support.slanted = true;
   options.support.half_planes = true;
   options.support.choose_sides = true;
+  options.support.fill_hidden = true;
   options.support.scanline = true;
   options.support.small_price = 0.12f;
   options.winner.refine = true;

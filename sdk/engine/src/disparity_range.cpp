@@ -13,6 +13,8 @@ namespace gigaray {
 namespace {
 
 constexpr int kMostPixels = 3000;
+// Of two views a single pixel tells little over a wide range: windows, and fewer of them.
+constexpr int kWindowOfTwo = 2, kMostPixelsOfTwo = 1000;
 
 /// A search of the whole range that views on a line or in a plane can have.
 struct WideSearch {
@@ -31,14 +33,18 @@ WideSearch search_widely(const LightField& views, const reference::Band& band,
     search.radius =
         std::max(search.radius, std::hypot(view.s - views.views[0].s, view.t - views.views[0].t));
   // A step moves the outermost view by half a pixel of the small pictures; the search ends where
-  // neighbouring views differ by a sixteenth of the width.
+  // neighbouring views differ by a sixteenth of the width, two by a quarter.
   const double scale = double(1 << band.shape.level);
-  const double most = band.shape.width / 16.0 * scale, step = 0.5 / search.radius * scale;
+  const bool two = band.num_views == 2;
+  const double most = band.shape.width / (two ? 4.0 : 16.0) * scale,
+               step = 0.5 / search.radius * scale;
   search.range = {-most, most, int(std::ceil(2 * most / step)) | 1};
   const bool is_4d = views.kind != LightFieldKind::k3D;
   search.matches = std::visit(
       [&](const auto& sampler) {
-        return match_edges(band, sampler, is_4d, search.range, control, most_pixels);
+        return match_edges(band, sampler, is_4d, search.range, control,
+                           two ? std::min(most_pixels, kMostPixelsOfTwo) : most_pixels,
+                           two ? kWindowOfTwo : 0);
       },
       make_sampler(views));
   return search;

@@ -39,12 +39,13 @@ inline ScoreOptions matching_score() {
   return score;
 }
 
-/// The best hypothesis of the pixels with the strongest edges of view 0 of a band.
-/// level0_sampler: of the views of the band.
+/// The best hypothesis of the pixels with the strongest edges of view 0 of a band, by the mean
+/// score of a window around each. level0_sampler: of the views of the band. window: px on each
+/// side.
 template <RaySampler S>
 std::vector<PixelMatch> match_edges(const reference::Band& band, const S& level0_sampler,
                                     bool is_4d, const HypothesisRange& range,
-                                    const RunControl& control, int most_pixels) {
+                                    const RunControl& control, int most_pixels, int window = 0) {
   const S sampler = level0_sampler.at_level(band.shape.level);
   StripMap<float> edges(band.shape.width, band.rows);
   reference::edge_confidence(band, 0, band.rows, EdgeOptions{2, false, 0, false}, is_4d, edges);
@@ -67,9 +68,15 @@ std::vector<PixelMatch> match_edges(const reference::Band& band, const S& level0
     // A flat picture tells nothing; more is the border of a mask.
     if (pixel.edge < kLeastEdge || pixel.edge > kMostEdge) return std::nullopt;
     std::vector<float> scores(std::size_t(range.count));
-    for (int i = 0; i < range.count; ++i)
-      scores[i] = reference::density_score(
-          band, sampler, 0, Ray{double(pixel.u), double(pixel.v), range.value(i)}, score);
+    const RowRange rows = grown({pixel.v, pixel.v + 1}, window, band.shape.height);
+    const RowRange columns = grown({pixel.u, pixel.u + 1}, window, band.shape.width);
+    for (int i = 0; i < range.count; ++i) {
+      for (int v = rows.begin; v < rows.end; ++v)
+        for (int u = columns.begin; u < columns.end; ++u)
+          scores[i] += reference::density_score(band, sampler, 0,
+                                                Ray{double(u), double(v), range.value(i)}, score);
+      scores[i] /= float(rows.size() * columns.size());
+    }
     const int best = int(std::max_element(scores.begin(), scores.end()) - scores.begin());
     float elsewhere = 0;
     for (int i = 0; i < range.count; ++i)

@@ -2,9 +2,11 @@
 // Copyright (c) 2026 The Gigaray authors
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 
 #include "gigaray/image.h"
+#include "gigaray/ray_sampler.h"
 
 namespace gigaray {
 
@@ -43,12 +45,20 @@ struct Search {
 inline constexpr int kSlopeReach = 15;
 /// Rows around a pixel that side_evidence looks at, and choose_sides.
 inline constexpr int kSideReach = 18, kSideColours = 3;
+/// Rows around a pixel that find_hidden looks at, and find_specks.
+inline constexpr int kHiddenReach = 16, kSpeckReach = 5;
 /// The scan-line step follows columns in blocks of so many rows,
 inline constexpr int kScanlineBlock = 16;
 /// and looks at so many rows on both sides of a block.
 inline constexpr int kScanlineReach = 16;
 /// The winner of a scan-line step is the best score so near to it, hypotheses.
 inline constexpr int kScanlineSearch = 2;
+
+/// Steps of a size, over a range, that find_hidden looks at.
+inline int hidden_steps(const HypothesisRange& range, double apart) {
+  constexpr double kMost = 4096;
+  return 1 + int(std::min((range.max - range.min) / apart, kMost));
+}
 
 /// One pyramid level.
 struct LevelShape {

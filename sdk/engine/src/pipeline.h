@@ -97,6 +97,9 @@ class Pipeline {
   void choose_sides(int view, RowRange rows, const Map<float>& disparity,
                     const Map<float>& confidence, const Map<float>& chosen,
                     const Map<float>& chosen_confidence);
+  /// Difference of hypotheses, on the finest level, that moves a point of a view by a pixel in the
+  /// view that it moves most in.
+  float way_of_a_pixel(int view) const;
   void take_winners(int view, RowRange rows, const Map<float>& winners, const Map<float>& contrast);
   void see_means(bool see);
   void accept(int active_idx, RowRange rows, bool anything);

@@ -2,6 +2,8 @@
 // Copyright (c) 2026 The Gigaray authors
 // The sweep over a view: from its scores to its accepted estimates.
 #include <algorithm>
+#include <cmath>
+#include <utility>
 
 #include "pipeline.h"
 
@@ -138,6 +140,17 @@ void Pipeline::run_stage(int active_idx, SweepStep step, RowRange rows,
       load();
       return choose_sides(view, rows, maps.disparity, maps.side_confidence, maps.accepted,
                           maps.confidence);
+    case SweepStep::kHidden:
+      load();
+      workspace_.begin_stage("hidden");
+      return workspace_.find_hidden(view, rows, way_of_a_pixel(view), maps.todo, maps.accepted,
+                                    maps.confidence, maps.scratch);
+    case SweepStep::kSpecks:
+      return workspace_.find_specks(rows, way_of_a_pixel(view), maps.todo, maps.accepted,
+                                    maps.scratch, maps.more_scratch);
+    case SweepStep::kFillHidden:
+      return workspace_.fill_hidden(rows, way_of_a_pixel(view), maps.more_scratch, maps.accepted,
+                                    maps.confidence);
     case SweepStep::kAccept:
       if (anything) load();
       return accept(active_idx, rows, anything);
@@ -279,6 +292,22 @@ void Pipeline::choose_sides(int view, RowRange rows, const Map<float>& disparity
   workspace_.begin_stage("sides");
   workspace_.choose_sides(view, rows, kJump * float(hypotheses_.step()), disparity, confidence,
                           of_view_.evidence, chosen, chosen_confidence);
+}
+
+float Pipeline::way_of_a_pixel(int view) const {
+  const Ray nearest{0.5 * shape().width, 0.5 * shape().height, hypotheses_.max};
+  const Ray farthest{nearest.u, nearest.v, hypotheses_.min};
+  double most = 0;
+  for (const int other : partners_[view]) {
+    const auto [near, far] = std::visit(
+        [&](const auto& sampler) {
+          return std::pair(sampler.locate(view, other, nearest),
+                           sampler.locate(view, other, farthest));
+        },
+        sampler_);
+    if (near && far) most = std::max(most, std::hypot(near->u - far->u, near->v - far->v));
+  }
+  return float((hypotheses_.max - hypotheses_.min) / std::max(most, 1.0));
 }
 
 void Pipeline::take_winners(int view, RowRange rows, const Map<float>& winners,

@@ -8,6 +8,7 @@
 #include <span>
 #include <sstream>
 
+#include "few_views.h"
 #include "gigaray/device.h"
 #include "gigaray/estimator.h"
 #include "gigaray/jpeg_blocks.h"
@@ -40,7 +41,11 @@ HypothesisRange sample_range(const DepthOptions& options, const LightField& ligh
                                                  std::to_string(light_field.width) +
                                                  " px), neighbouring views share nothing then");
   double count = options.hypotheses;
-  if (count == 0) count = std::ceil((range.max - range.min) / options.hypothesis_step) + 1;
+  if (count == 0) {
+    count = std::ceil((range.max - range.min) / options.hypothesis_step) + 1;
+    if (options.score.from_noise && most_others(light_field) <= kMostFewViews)
+      count = std::min(count, double(kMostOfFewViews));
+  }
   if (count > 4096)
     throw Error(ErrorCode::kInvalidArgument,
                 text.str() + ": takes " + std::to_string(long(count)) +
@@ -166,6 +171,7 @@ Prepared prepare(const LightField& light_field, const DepthOptions& wanted,
     prepare_range(run, control);
   }
   run.options.hypotheses = run.hypotheses.count;
+  adapt_to_few_views(run.light_field, run.options);
   return run;
 }
 
@@ -178,9 +184,11 @@ DepthOptions widest(DepthOptions options) {
 /// Fills in what the pictures decide. The plan of the memory comes before: it holds for all
 /// pictures, so that the forecast, which looks at none, and the run say the same.
 void adapt_to_pictures(Prepared& run, const RunControl& control) {
-  if (run.options.score.from_noise)
+  if (run.options.score.from_noise) {
     adapt_to_noise(run, control);
-  else if (run.options.score.smoothing > 0)
+    if (most_others(run.light_field) <= kMostFewViews)
+      widen(estimate_window_noise(run.light_field, run.hypotheses, control), run.options);
+  } else if (run.options.score.smoothing > 0)
     run.light_field = smoothed(run.light_field, run.options.score.smoothing);
 }
 
@@ -193,8 +201,8 @@ std::string kernel_job(const Prepared& run, const std::string& devices) {
        << o.edge.threshold << ' ' << o.edge.squared << ' ' << o.score.linear_rgb << ' '
        << o.score.cubic << ' ' << o.score.gradient << ' ' << o.score.ray_mean << ' '
        << o.support.radius << ' ' << o.support.slanted << ' ' << o.support.half_planes << ' '
-       << o.support.choose_sides << ' ' << o.support.scanline << ' ' << o.winner.refine << ' '
-       << o.winner.median_radius << ' ' << o.propagation.fine_to_coarse;
+       << o.support.choose_sides << ' ' << o.support.fill_hidden << ' ' << o.support.scanline << ' '
+       << o.winner.refine << ' ' << o.winner.median_radius << ' ' << o.propagation.fine_to_coarse;
   return text.str();
 }
 

@@ -60,6 +60,12 @@ std::vector<SweepStage> sweep_stages(const DepthOptions& options, int level, int
       stages.push_back({evidence, kSideReach, 1});
       stages.push_back({choice, kSideColours, 1});
     }
+    if (support.fill_hidden) {
+      stages.push_back({SweepStep::kHidden, kHiddenReach, 1});
+      stages.push_back({SweepStep::kSpecks, kSpeckReach, 1});
+      // It writes where those still look.
+      stages.push_back({SweepStep::kFillHidden, kHiddenReach, 1});
+    }
     stages.push_back({SweepStep::kAccept, 0, 1});
   } else {
     stages.push_back({SweepStep::kAccept, median, 1});

@@ -28,6 +28,9 @@ enum class SweepStep {
   kChooseSides,
   kSideEvidenceAgain,  ///< beside the jumps as they are now
   kChooseSidesAgain,
+  kHidden,  ///< what no view can confirm
+  kSpecks,  ///< and what stands alone
+  kFillHidden,
   kAccept  ///< median where it was not the last one, radiance, propagation
 };
 

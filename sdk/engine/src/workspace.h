@@ -263,6 +263,21 @@ class Workspace {
   virtual void choose_sides(int ref, RowRange rows, float jump, const Map<float>& disparity,
                             const Map<float>& confidence, const Map<float>& evidence,
                             const Map<float>& chosen, const Map<float>& chosen_confidence) = 0;
+  /// 1 where every view that sees an estimate sees a more confident one at the same place, that
+  /// differs by more than `apart`, which moves a point by a pixel; and where no view sees it. 0
+  /// where nothing is to do. Looks at kHiddenReach rows around.
+  virtual void find_hidden(int ref, RowRange rows, float apart, const Map<std::uint8_t>& todo,
+                           const Map<float>& disparity, const Map<float>& confidence,
+                           const Map<std::uint8_t>& hidden) = 0;
+  /// The same and specks: what few of the estimates around are alike, within `apart`, and not
+  /// hidden. Looks at kSpeckReach rows around.
+  virtual void find_specks(RowRange rows, float apart, const Map<std::uint8_t>& todo,
+                           const Map<float>& disparity, const Map<std::uint8_t>& hidden,
+                           const Map<std::uint8_t>& guessed) = 0;
+  /// What is guessed, and not within `apart` of it, takes the farther one of the next estimates of
+  /// its row, in place.
+  virtual void fill_hidden(RowRange rows, float apart, const Map<std::uint8_t>& guessed,
+                           const Map<float>& disparity, const Map<float>& confidence) = 0;
   /// tolerance: colour distance; infinite makes it a plain median that needs no band.
   virtual void bilateral_median(int ref, RowRange rows, int radius, float tolerance,
                                 const Map<float>& in, const Map<float>& out) = 0;

@@ -21,6 +21,11 @@ struct EdgeOptions {
 /// Bandwidths of clean pictures.
 inline constexpr float kLeastBandwidth = 0.015f, kLeastGradientBandwidth = 0.003f;
 
+/// So many others to be compared with are few: what they say may be chance.
+inline constexpr int kMostFewViews = 3;
+/// Over a wide range these take wider steps, with ScoreOptions::from_noise: to so many hypotheses.
+inline constexpr int kMostOfFewViews = 640;
+
 /// Density score S (eq. 3–5) of a hypothesis.
 struct ScoreOptions {
   bool linear_rgb = true;  ///< Compare linear RGB (sRGB EOTF); false: values as encoded.
@@ -35,7 +40,8 @@ struct ScoreOptions {
   bool remove_jpeg_blocks = false;
   float smoothing = 0;  ///< Gaussian that the pictures are smoothed by first, px; 0: none. 0 … 3
   /// Derive smoothing, both bandwidths, their shares and the support from the noise of the pictures
-  /// and the number of views, and leave out ray_mean where they are clean.
+  /// and the number of views, and leave out ray_mean where they are clean. Where views are few,
+  /// raise SupportOptions::jump_price and jump_sigma_colour.
   bool from_noise = false;
   /// Between the two looks of SupportOptions::slanted the reference view is replaced by the mean of
   /// what all views see along its rays: its own noise would limit the score. Needs gradient and
@@ -73,6 +79,10 @@ struct SupportOptions {
   /// A last pass at level 0 that decides for every pixel beside a jump which side it belongs to, by
   /// its own rays and colours. Needs `slanted` and ScoreOptions::gradient.
   bool choose_sides = false;
+  /// Of two views: estimates at level 0 that the other one doesn't confirm continue what is behind.
+  /// Left out where any view is compared with more than one: what is hidden from one of two others
+  /// the second mostly sees. Needs choose_sides.
+  bool fill_hidden = false;
   /// A scan-line step (semi-global matching, Hirschmüller 2008) on the supported scores of level 0:
   /// a neighbour may differ by two hypotheses at small_price, by any number at jump_price, which
   /// falls with the colour difference. Needs radius > 0.
@@ -118,8 +128,8 @@ struct DepthOptions {
   /// Tested range, level-0 px per view step; unstructured: inverse depths, 1/scene unit, ≥ 0, the
   /// same for all views. Empty: from the light field, else estimated.
   std::optional<DisparityRange> disparity;
-  /// Number of hypotheses, 2 … 4096; 0: one every `hypothesis_step`, unstructured
-  /// `unstructured_step`.
+  /// Number of hypotheses, 2 … 4096; 0: one every `hypothesis_step` (of few views kMostOfFewViews
+  /// at most), unstructured `unstructured_step`.
   int hypotheses = 0;
   double hypothesis_step = 0.035;  ///< level-0 px per view step
   /// Way of a point from one hypothesis to the next in the view that stands in the middle of those
