@@ -91,14 +91,16 @@ TEST(NoiseEstimate, BandwidthsGrowWithItFromALeastValue) {
 }
 
 TEST(RayDoubt, ComesWithNoiseAndWithFewViews) {
-  EXPECT_EQ(ray_doubt(kLeadOfOwnPixel, 80), 0);
-  EXPECT_EQ(ray_doubt(kLeadOfOwnPixel, 16), 0);
-  EXPECT_EQ(ray_doubt(0.5, 80), 1);
-  EXPECT_EQ(ray_doubt(12, 1), 1);
-  EXPECT_GT(ray_doubt(2.3, 80), 0);
-  EXPECT_LT(ray_doubt(2.3, 80), 1);
-  EXPECT_GT(ray_doubt(12, 2), ray_doubt(12, 4));
-  EXPECT_GT(ray_doubt(12, 4), 0);
+  const NoiseEstimate weak{0.005, 0.001, 1.5}, strong{0.04, 0.01, 1.5};
+  EXPECT_EQ(ray_doubt(weak, kLeadOfOwnPixel, 80), 0);
+  EXPECT_EQ(ray_doubt(weak, kLeadOfOwnPixel, 16), 0);
+  EXPECT_EQ(ray_doubt(weak, 0.5, 80), 1);
+  EXPECT_EQ(ray_doubt(strong, 0.5, 80), 0);
+  EXPECT_EQ(ray_doubt(strong, 12, 1), 1);
+  EXPECT_GT(ray_doubt(weak, 2.3, 80), 0);
+  EXPECT_LT(ray_doubt(weak, 2.3, 80), 1);
+  EXPECT_GT(ray_doubt(strong, 12, 2), ray_doubt(strong, 12, 4));
+  EXPECT_GT(ray_doubt(strong, 12, 4), 0);
 }
 
 TEST(RayDoubt, WidensTheSupportInEvenSteps) {

@@ -150,11 +150,17 @@ void apply_noise(const NoiseEstimate& noise, DepthOptions& options) {
   options.support.sigma_colour = float(std::max(0.03, 2 * noise.colour));
 }
 
-double ray_doubt(double lead, int others) {
+double ray_doubt(const NoiseEstimate& noise, double lead, int others) {
   constexpr double kRamp = 0.4, kMany = 16;
-  const double of_noise = (kLeadOfOwnPixel - lead) / kRamp;
+  // Mean colour distance of wrong hypotheses. Strong texture tells all that rays need, and a wide
+  // window would only blunt its silhouettes.
+  constexpr double kWeakTexture = 0.02, kStrongTexture = 0.03;
+  const double contrast = noise.colour * (1 + noise.lead);
+  const auto ramp = [](double value) { return std::clamp(value, 0.0, 1.0); };
+  const double of_noise = ramp((kLeadOfOwnPixel - lead) / kRamp) *
+                          ramp((kStrongTexture - contrast) / (kStrongTexture - kWeakTexture));
   const double of_views = (1.0 / others - 1 / kMany) / (1 - 1 / kMany);
-  return std::clamp(std::max(of_noise, of_views), 0.0, 1.0);
+  return std::max(of_noise, ramp(of_views));
 }
 
 void apply_doubt(double doubt, DepthOptions& options) {

@@ -78,11 +78,8 @@ struct Prepared {
 void adapt_to_noise(Prepared& run, const RunControl& control) {
   const LightField original = run.light_field;
   NoiseEstimate noise = estimate_noise(original, run.hypotheses, control);
-  run.options.score.ray_mean = run.options.score.ray_mean && noise.lead < kLeadOfOwnPixel;
-  const int seen_with =
-      std::visit([&](const auto& s) { return int(s.partners(centre_view(original)).size()) - 1; },
-                 make_sampler(original));
-  apply_doubt(ray_doubt(noise.lead, std::max(seen_with, 1)), run.options);
+  const double lead = noise.lead;
+  run.options.score.ray_mean = run.options.score.ray_mean && lead < kLeadOfOwnPixel;
   run.options.score.smoothing = 0;
   for (const float sigma : {0.7f, 1.0f}) {
     if (noise.lead >= kLeadWithoutSmoothing) break;
@@ -99,6 +96,7 @@ void adapt_to_noise(Prepared& run, const RunControl& control) {
     control.message(text.str());
   }
   apply_noise(noise, run.options);
+  apply_doubt(ray_doubt(noise, lead, std::max(most_others(original), 1)), run.options);
 }
 
 std::string range_message(const DisparityRange& range) {

@@ -65,9 +65,10 @@ inline constexpr double kLeadWithoutSmoothing = 1.0, kLeadOfOwnPixel = 2.5;
 /// Sets the bandwidths and sigma_colour of options from the noise (ACCURACY: the measured rule).
 void apply_noise(const NoiseEstimate& noise, DepthOptions& options);
 
-/// How much rays alone leave open, 0 … 1: in noisy pictures, and where a view is compared with few
-/// others. lead: of the pictures before smoothing. others: ≥ 1.
-double ray_doubt(double lead, int others);
+/// How much rays alone leave open, 0 … 1: in noisy pictures of weak texture, and where a view is
+/// compared with few others. noise: of the pictures as they are compared; lead: before they were
+/// smoothed. others: ≥ 1.
+double ray_doubt(const NoiseEstimate& noise, double lead, int others);
 
 /// Gives neighbours and gradients more weight, from the usual to that in doubt. doubt: 0 … 1.
 void apply_doubt(double doubt, DepthOptions& options);
