@@ -11,6 +11,7 @@
 #include <string>
 
 #include "accuracy/accuracy_bench.h"
+#include "support/jpeg_rounding.h"
 
 namespace gigaray {
 namespace {
@@ -36,16 +37,16 @@ constexpr Expectation kExpectations[] = {
     {"planes", Rig::kRow, 0, 0.7, 0.9},           {"rods", Rig::kRow, 0, 7.1, 8.2},
     {"sphere", Rig::kRow, 0, 0.5, 0.6},           {"wall", Rig::kRow, 0, 39.7, 45.8},
     {"specular", Rig::kRow, 0, 8.9, 10.2},        {"plaster", Rig::kRow, 0, 8.0, 9.2},
-    {"silhouettes", Rig::kRow, 0, 2.5, 3.0},      {"wedges", Rig::kRow, 0, 1.9, 2.3},
+    {"silhouettes", Rig::kRow, 0, 2.5, 3.0},      {"wedges", Rig::kRow, 0, 2.1, 2.3},
     {"garden", Rig::kRow, 0, 15.2, 17.6},         {"planes", Rig::kCross, 0, 1.2, 1.5},
-    {"rods", Rig::kCross, 0, 11.1, 12.8},         {"sphere", Rig::kCross, 0, 3.1, 3.7},
+    {"rods", Rig::kCross, 0, 10.2, 11.8},         {"sphere", Rig::kCross, 0, 3.1, 3.7},
     {"wall", Rig::kCross, 0, 37.5, 43.1},         {"specular", Rig::kCross, 0, 15.7, 18.1},
     {"plaster", Rig::kCross, 0, 24.1, 27.8},      {"silhouettes", Rig::kCross, 0, 3.5, 4.1},
     {"wedges", Rig::kCross, 0, 2.4, 2.8},         {"garden", Rig::kCross, 0, 21.1, 24.3},
-    {"planes", Rig::kCross, 0.01, 1.1, 1.3},      {"planes", Rig::kCross, 0.02, 1.9, 2.2},
-    {"plaster", Rig::kCross, 0.01, 25.8, 29.8},   {"plaster", Rig::kCross, 0.02, 30.9, 35.6},
-    {"silhouettes", Rig::kCross, 0.01, 3.3, 3.9}, {"silhouettes", Rig::kCross, 0.02, 5.4, 6.3},
-    {"wedges", Rig::kCross, 0.01, 2.7, 3.2},      {"wedges", Rig::kCross, 0.02, 4.3, 5.0},
+    {"planes", Rig::kCross, 0.01, 1.0, 1.2},      {"planes", Rig::kCross, 0.02, 1.2, 1.4},
+    {"plaster", Rig::kCross, 0.01, 27.5, 29.8},   {"plaster", Rig::kCross, 0.02, 31.3, 35.6},
+    {"silhouettes", Rig::kCross, 0.01, 2.9, 3.4}, {"silhouettes", Rig::kCross, 0.02, 4.9, 5.7},
+    {"wedges", Rig::kCross, 0.01, 2.6, 3.1},      {"wedges", Rig::kCross, 0.02, 3.6, 4.2},
 };
 
 class Accuracy : public testing::TestWithParam<Expectation> {};
@@ -64,9 +65,32 @@ TEST_P(Accuracy, StaysBelowItsLimit) {
   EXPECT_EQ(scores.filled, 100);
 }
 
+/// Blocks stand at the same pixels in all views, as texture of disparity 0 would.
+TEST(Accuracy, BlocksOfJpegAreNoTexture) {
+  SyntheticLightField field = testing_support::render_scene("planes", Rig::kRow, 0);
+  JpegTable steps;
+  for (int k = 0; k < 8; ++k)
+    for (int l = 0; l < 8; ++l) steps(k, l) = float(6 + 4 * (k + l));
+  field.light_field.pixels = std::make_shared<testing_support::JpegPixels>(
+      field.light_field.pixels, JpegSteps{steps, {}, 1, 1});
+  const int centre = centre_view(field.light_field);
+  DepthOptions options = auto_options();
+  options.views = {centre};
+  const auto score = [&] {
+    Reconstruction result = reconstruct(field.light_field, options, {}, RunControl());
+    return score_disparity(result.view(centre).disparity, field.disparity[centre]).bad_pix_003;
+  };
+  const double cleaned = score();
+  options.score.remove_jpeg_blocks = false;
+  const double as_they_are = score();
+  RecordProperty("BadPix0.03", std::to_string(cleaned));
+  RecordProperty("as_they_are", std::to_string(as_they_are));
+  EXPECT_LT(cleaned, 0.85 * as_they_are);
+}
+
 /// A corner view has all others on one side of it.
 TEST(Accuracy, CornerViewsStayBelowTheirLimit) {
-  constexpr double kLimitOfMean = 20.8, kMeasured = 18.1;
+  constexpr double kLimitOfMean = 19.8, kMeasured = 17.2;
   const SyntheticLightField field = testing_support::render_scene("rods", Rig::kGrid, 0);
   const int last = field.light_field.num_views() - 1;
   double mean = 0;

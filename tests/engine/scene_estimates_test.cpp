@@ -96,6 +96,7 @@ TEST(RayDoubt, ComesWithNoiseAndWithFewViews) {
   EXPECT_EQ(ray_doubt(weak, kLeadOfOwnPixel, 16), 0);
   EXPECT_EQ(ray_doubt(weak, 0.5, 80), 1);
   EXPECT_EQ(ray_doubt(strong, 0.5, 80), 0);
+  EXPECT_EQ(ray_doubt({0.0005, 0, 0.5}, 0.5, 80), 0) << "no noise, no texture";
   EXPECT_EQ(ray_doubt(strong, 12, 1), 1);
   EXPECT_GT(ray_doubt(weak, 2.3, 80), 0);
   EXPECT_LT(ray_doubt(weak, 2.3, 80), 1);

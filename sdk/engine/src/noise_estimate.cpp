@@ -146,7 +146,7 @@ NoiseEstimate estimate_noise(const LightField& light_field, const HypothesisRang
 
 void apply_noise(const NoiseEstimate& noise, DepthOptions& options) {
   options.score.bandwidth = std::max(kLeastBandwidth, float(3 * noise.colour));
-  options.score.gradient_bandwidth = std::max(kLeastGradientBandwidth, float(1.5 * noise.gradient));
+  options.score.gradient_bandwidth = std::max(kLeastGradientBandwidth, float(2 * noise.gradient));
   options.support.sigma_colour = float(std::max(0.03, 2 * noise.colour));
 }
 
@@ -157,7 +157,7 @@ double ray_doubt(const NoiseEstimate& noise, double lead, int others) {
   constexpr double kWeakTexture = 0.02, kStrongTexture = 0.03;
   const double contrast = noise.colour * (1 + noise.lead);
   const auto ramp = [](double value) { return std::clamp(value, 0.0, 1.0); };
-  const double of_noise = ramp((kLeadOfOwnPixel - lead) / kRamp) *
+  const double of_noise = (noise.colour > kLeastNoise) * ramp((kLeadOfOwnPixel - lead) / kRamp) *
                           ramp((kStrongTexture - contrast) / (kStrongTexture - kWeakTexture));
   const double of_views = (1.0 / others - 1 / kMany) / (1 - 1 / kMany);
   return std::max(of_noise, ramp(of_views));

@@ -79,7 +79,8 @@ void adapt_to_noise(Prepared& run, const RunControl& control) {
   const LightField original = run.light_field;
   NoiseEstimate noise = estimate_noise(original, run.hypotheses, control);
   const double lead = noise.lead;
-  run.options.score.ray_mean = run.options.score.ray_mean && lead < kLeadOfOwnPixel;
+  run.options.score.ray_mean =
+      run.options.score.ray_mean && lead < kLeadOfOwnPixel && noise.colour > kLeastNoise;
   run.options.score.smoothing = 0;
   for (const float sigma : {0.7f, 1.0f}) {
     if (noise.lead >= kLeadWithoutSmoothing) break;

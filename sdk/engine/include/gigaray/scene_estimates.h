@@ -61,6 +61,9 @@ NoiseEstimate estimate_noise(const LightField& light_field, const HypothesisRang
 /// along its ray. Clean pictures have 2.6 and more, cleaned JPEG of quality 90 and 75 has 1.5 to
 /// 2.3, noise of 2 % of the range 0.3 to 0.7 where the texture is weak.
 inline constexpr double kLeadWithoutSmoothing = 1.0, kLeadOfOwnPixel = 2.5;
+/// NoiseEstimate::colour of pictures without noise is below; a small lead is then for want of
+/// texture. Clean renderings of 8 bit have 0.003.
+inline constexpr double kLeastNoise = 0.001;
 
 /// Sets the bandwidths and sigma_colour of options from the noise (ACCURACY: the measured rule).
 void apply_noise(const NoiseEstimate& noise, DepthOptions& options);
