@@ -44,8 +44,8 @@ namespace gigaray {
 
 /// What few views can't confirm, see hidden.cl. Estimates are at one place in a view when they are
 /// no farther from it than HIDDEN_NEAR px; they are looked for less than HIDDEN_REACH rows away. A
-/// speck is what less than SPECK_SHARE of the estimates within SPECK_RADIUS share. What is filled is
-/// FILLED_CONFIDENCE as sure as what it continues.
+/// speck is what less than SPECK_SHARE of the estimates within SPECK_RADIUS share. What is filled
+/// is FILLED_CONFIDENCE as sure as what it continues.
 #define HIDDEN_REACH 16
 #define HIDDEN_NEAR 0.75f
 #define SPECK_RADIUS 5
