@@ -105,20 +105,27 @@ void add_path(CLI::App& app, SynthOptions& options, CLI::Option& grid, CLI::Opti
              "--path",
              [&options, shapes](const std::string& name) { options.shape = shapes.at(name); },
              "Photographs with exact depth and a COLMAP model, taken along a "
-             "line, an arc or a walk; the scene is 1 to 2.5 m away")
+             "line, an arc or a walk; the scene is 1 to 2.5 m away, room and figure 1 to 4 m")
           ->check(one_of({"line", "arc", "walk"}))
           ->option_text("line|arc|walk")
           ->excludes(&grid)
           ->excludes(&disparity);
   const auto add = [&](const char* name, double& value, const char* help) {
-    app.add_option(name, value, help)->capture_default_str()->needs(path);
+    return app.add_option(name, value, help)->capture_default_str()->needs(path);
   };
-  add("--extent", options.path.extent, "Length of the path, m");
+  auto* extent = add("--extent", options.path.extent, "Length of the path, m");
+  add("--step", options.path.step,
+      "Angle between neighbouring cameras seen from the middle of the scene, degrees, up to 20: "
+      "the "
+      "path goes around it, for an arc or a walk")
+      ->excludes(extent);
   add("--spacing-noise", options.path.spacing_noise,
       "Standard deviation of the steps along it, of the mean step");
   add("--off-line", options.path.off_line, "Standard deviation of the places beside it, m");
   add("--rotation-noise", options.path.rotation_noise,
       "Standard deviation of the camera's rotations, degrees about each axis");
+  add("--exposure-noise", options.path.exposure_noise,
+      "Standard deviation of the exposure, stops: a gain in linear light (encoded by 2.2)");
   add("--distortion", options.path.distortion, "k1 of a SIMPLE_RADIAL lens");
 }
 

@@ -59,22 +59,28 @@ ColmapModel colmap_model(const SyntheticCapture& capture, double distortion) {
   return model;
 }
 
-std::string description(const SyntheticOptions& options, const SyntheticPath& path) {
+std::string description(const SyntheticOptions& options, const SyntheticPath& path,
+                        const SyntheticCapture& capture) {
   const char* shapes[] = {"line", "arc", "walk"};
-  const ordered_json root = {{"format", kFormat},
-                             {"unit", "m"},
-                             {"scene", options.scene},
-                             {"seed", options.seed},
-                             {"noise", options.noise},
-                             {"outliers", options.outliers},
-                             {"bit_depth", options.bit_depth},
-                             {"samples", options.samples},
-                             {"path", shapes[int(path.shape)]},
-                             {"extent", path.extent},
-                             {"spacing_noise", path.spacing_noise},
-                             {"off_line", path.off_line},
-                             {"rotation_noise", path.rotation_noise},
-                             {"distortion", path.distortion}};
+  ordered_json root = {{"format", kFormat},
+                       {"unit", "m"},
+                       {"scene", options.scene},
+                       {"seed", options.seed},
+                       {"noise", options.noise},
+                       {"outliers", options.outliers},
+                       {"bit_depth", options.bit_depth},
+                       {"samples", options.samples},
+                       {"path", shapes[int(path.shape)]},
+                       {"spacing_noise", path.spacing_noise},
+                       {"off_line", path.off_line},
+                       {"rotation_noise", path.rotation_noise},
+                       {"exposure_noise", path.exposure_noise},
+                       {"exposures", capture.exposures},
+                       {"distortion", path.distortion}};
+  if (path.step > 0)
+    root["step"] = path.step;
+  else
+    root["extent"] = path.extent;
   return root.dump(2) + "\n";
 }
 
@@ -93,7 +99,7 @@ void write_synthetic_photographs(const OutputOption& output, const SyntheticOpti
       });
   write_colmap_model(out.path() / "sparse" / "0", colmap_model(capture, path.distortion),
                      ColmapFormat::kText);
-  write_file_atomically(out.path() / kDescription, description(options, path));
+  write_file_atomically(out.path() / kDescription, description(options, path, capture));
   out.commit(control);
   fmt::print("{}: {} photographs of {} × {} px; their cameras in {}, exact depth in {}\n",
              output.path.string(), capture.names.size(), options.width, options.height,

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
+
 #include "cli/program_test.h"
 #include "gigaray/adapters/maps.h"
 #include "gigaray/adapters/reader.h"
@@ -107,6 +109,36 @@ TEST_F(SynthCommand, WritesPhotographsThatOpenWithTheirCameras) {
   expect_failure("synth planes -o made --views 3", 2, "made", "not empty");
 }
 
+TEST_F(SynthCommand, StepsAndExposuresAreTakenAndTold) {
+  const Result result = run(std::string("synth figure -o made --path arc --views 4 --step 20 "
+                                        "--exposure-noise 0.5") +
+                            kSmall);
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  SyntheticOptions options;
+  options.scene = "figure";
+  options.width = 40;
+  options.height = 31;
+  options.views_s = 4;
+  options.samples = 2;
+  SyntheticPath path;
+  path.shape = SyntheticPath::Shape::kArc;
+  path.step = 20;
+  path.exposure_noise = 0.5;
+  const SyntheticCapture capture = describe_synthetic_capture(options, path);
+  const auto told = nlohmann::json::parse(text_of("made/synthetic.json"));
+  EXPECT_EQ(told["step"], 20);
+  EXPECT_FALSE(told.contains("extent"));
+  EXPECT_EQ(told["exposures"].get<std::vector<double>>(), capture.exposures);
+  const LightField opened = open_light_field(folder / "made");
+  ASSERT_EQ(opened.num_views(), 4);
+  EXPECT_TRUE(opened.cameras[3].rotation.isApprox(capture.cameras[3].rotation, 1e-9));
+  render_synthetic_capture(
+      options, path, RunControl(), [&](int i, Image<std::uint16_t> picture, FloatMap depth) {
+        EXPECT_EQ(opened.pixels->read(i), picture);
+        EXPECT_EQ(read_pfm(folder / "made/truth" / (capture.names[i] + ".pfm")), depth);
+      });
+}
+
 TEST_F(SynthCommand, ReplacesItsOwnOutputAndNothingElse) {
   ASSERT_EQ(run(std::string("synth wall -o made --views 5") + kSmall).exit_code, 0);
   ASSERT_EQ(run(std::string("synth wall -o made --views 2") + kSmall).exit_code, 0);
@@ -134,6 +166,13 @@ TEST_F(SynthCommand, WrongUsageIsOneLineAndLeavesNothing) {
   expect_failure("synth wall -o x --path walk --grid 3x3", 2, "--grid", "--path");
   expect_failure("synth wall -o x --extent 1", 2, "--extent", "--path");
   expect_failure("synth wall -o x --path walk --extent 9", 2, "extent", "9");
+  expect_failure("synth wall -o x --step 5", 2, "--step", "--path");
+  expect_failure("synth wall -o x --path arc --step 5 --extent 1", 2, "--step", "--extent");
+  expect_failure("synth wall -o x --path arc --step 30", 2, "step", "30");
+  expect_failure("synth wall -o x --path arc --step 20 --views 9", 2, "step", "160");
+  expect_failure("synth wall -o x --path line --step 5 --views 3", 2, "step", "line");
+  expect_failure("synth wall -o x --exposure-noise 0.3", 2, "--exposure-noise", "--path");
+  expect_failure("synth wall -o x --path walk --exposure-noise 3", 2, "exposure_noise", "3");
   EXPECT_EQ(names_in("."), Names{});
 }
 

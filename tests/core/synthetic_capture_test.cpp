@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <mutex>
 #include <numbers>
@@ -167,6 +168,155 @@ TEST(SyntheticCapture, APathOfTheHandLeavesTheLineAndLooksAtTheMiddle) {
   EXPECT_GT(rms(forth), 0.01);
 }
 
+SyntheticOptions small_scene(const std::string& scene, int num_views) {
+  SyntheticOptions options = small(num_views);
+  options.scene = scene;
+  return options;
+}
+
+SyntheticPath around(Shape shape, double step) {
+  SyntheticPath path = path_of(shape);
+  path.step = step;
+  return path;
+}
+
+/// Angles between neighbouring cameras as seen from the middle, degrees.
+std::vector<double> steps_of(const SyntheticCapture& capture, const Eigen::Vector3d& middle) {
+  std::vector<double> steps;
+  for (std::size_t i = 0; i + 1 < capture.cameras.size(); ++i) {
+    const Eigen::Vector3d a = (capture.cameras[i].position() - middle).normalized();
+    const Eigen::Vector3d b = (capture.cameras[i + 1].position() - middle).normalized();
+    steps.push_back(180 / std::numbers::pi * std::acos(a.dot(b)));
+  }
+  return steps;
+}
+
+TEST(SyntheticCapture, CamerasOnAnArcStandAStepApart) {
+  const Eigen::Vector3d middle_of_garden(0, 0, 1 / 0.7), middle_of_room(0, 0, 1.6);
+  const auto expect = [](const SyntheticOptions& options, double step, const auto& middle) {
+    const SyntheticCapture capture = describe_synthetic_capture(options, around(Shape::kArc, step));
+    for (const double angle : steps_of(capture, middle)) EXPECT_NEAR(angle, step, 1e-6);
+    for (const Camera& camera : capture.cameras)
+      EXPECT_NEAR((camera.position() - middle).norm(), middle.z(), 1e-9);
+  };
+  expect(small(4), 2, middle_of_garden);
+  expect(small_scene("room", 7), 20, middle_of_room);
+  expect(small_scene("figure", 19), 20, middle_of_room);
+}
+
+TEST(SyntheticCapture, AWalkInStepsGoesUpAndDownAndToAndFroAroundTheMiddle) {
+  constexpr double kStep = 10;
+  const Eigen::Vector3d middle(0, 0, 1.6);
+  const SyntheticCapture capture =
+      describe_synthetic_capture(small_scene("room", 12), around(Shape::kWalk, kStep));
+  for (const double angle : steps_of(capture, middle)) EXPECT_NEAR(angle, kStep, 0.25 * kStep);
+  std::vector<double> up, forth;
+  for (const Camera& camera : capture.cameras) {
+    up.push_back(camera.position().y());
+    forth.push_back((camera.position() - middle).norm() - middle.z());
+  }
+  EXPECT_GT(rms(up), 0.03);
+  EXPECT_GT(rms(forth), 0.01);
+  EXPECT_LT(*std::max_element(up.begin(), up.end()), 0.2) << "above the floor";
+}
+
+TEST(SyntheticCapture, WideStepsKeepDepthAndCamerasInAgreement) {
+  for (const std::string scene : {"room", "figure"}) {
+    const SyntheticOptions options = small_scene(scene, 2);
+    const SyntheticPath path = around(Shape::kArc, 15);
+    const double share =
+        share_found_again(describe_synthetic_capture(options, path), render(options, path));
+    EXPECT_GT(share, scene == "room" ? 0.75 : 0.5) << scene;  // the rest is hidden
+  }
+}
+
+TEST(SyntheticCapture, WhatIsWhiteAroundTheFigureHasNoDepthAndNoPoints) {
+  const SyntheticOptions options = small_scene("figure", 4);
+  const SyntheticPath path = around(Shape::kArc, 20);
+  const Photographs photographs = render(options, path);
+  for (int i = 0; i < 4; ++i) {
+    int figure = 0;
+    for (int v = 0; v < options.height; ++v)
+      for (int u = 0; u < options.width; ++u) {
+        const float depth = photographs.depth[i](u, v);
+        figure += std::isfinite(depth);
+        if (std::isfinite(depth)) {
+          EXPECT_GT(depth, 0.9);
+          EXPECT_LT(depth, 2.3);
+        } else {
+          EXPECT_GT(depth, 0);
+        }
+        const bool is_white =
+            photographs.pictures[i](u, v, 0) == 255 && photographs.pictures[i](u, v, 2) == 255;
+        EXPECT_TRUE(!is_white || std::isinf(depth));
+      }
+    EXPECT_GT(figure, 0.08 * options.width * options.height);
+    EXPECT_LT(figure, 0.4 * options.width * options.height);
+  }
+  const SyntheticCapture capture = describe_synthetic_capture(options, path);
+  EXPECT_GT(capture.points.size(), 200u);
+  for (const auto& point : capture.points)
+    EXPECT_LT((point.position - Eigen::Vector3d(0, 0, 1.6)).norm(), 0.8);
+}
+
+TEST(SyntheticCapture, TheFloorOfTheRoomReachesTheLowerBorder) {
+  const SyntheticOptions options = small_scene("room", 3);
+  const FloatMap depth = render(options, around(Shape::kArc, 2)).depth[1];
+  const int last = options.height - 1;
+  EXPECT_GT(depth(5, last), 1);
+  EXPECT_LT(depth(5, last), 1.1);
+  // Affine in inverse depth: a plane.
+  const double step = 1 / depth(5, last) - 1 / depth(5, last - 1);
+  for (int k = 0; k < 15; ++k)
+    EXPECT_NEAR(1 / depth(5, last - k), 1 / depth(5, last) - k * step, 1e-5);
+  EXPECT_GT(step * 15, 0.2) << "very slanted";
+}
+
+TEST(SyntheticCapture, LegsOfTheTableAreFourToSixPixelsWide) {
+  SyntheticOptions options = small_scene("room", 3);
+  options.width = 640;
+  options.height = 480;
+  options.samples = 1;
+  const FloatMap depth = render(options, around(Shape::kArc, 2)).depth[1];
+  // A row that crosses the legs before the floor.
+  const int v = 300;
+  int legs = 0, width = 0;
+  for (int u = 320; u < 600; ++u) {
+    const bool is_leg = depth(u, v) < 0.98f * depth(3, v);
+    if (!is_leg && width > 0) {
+      ++legs;
+      EXPECT_GE(width, 4);
+      EXPECT_LE(width, 6);
+    }
+    width = is_leg ? width + 1 : 0;
+  }
+  EXPECT_EQ(legs, 4);
+}
+
+TEST(SyntheticCapture, ExposuresVaryAsStatedAndScaleTheEncodedValues) {
+  SyntheticPath path = path_of(Shape::kLine);
+  path.exposure_noise = 0.5;
+  const std::vector<double> exposures = describe_synthetic_capture(small(400), path).exposures;
+  EXPECT_NEAR(rms(exposures), 0.5, 0.05);
+
+  SyntheticOptions options = small(4);
+  options.bit_depth = 16;
+  const Photographs exposed = render(options, path);
+  path.exposure_noise = 0;
+  const Photographs plain = render(options, path);
+  EXPECT_EQ(exposed.depth, plain.depth);
+  const std::vector<double> unchanged = describe_synthetic_capture(options, path).exposures;
+  EXPECT_EQ(unchanged, std::vector<double>(4, 0));
+  for (int i = 0; i < 4; ++i) {
+    const double gain = std::exp2(exposures[i] / 2.2);
+    for (int v = 0; v < options.height; ++v)
+      for (int u = 0; u < options.width; ++u) {
+        const double wanted = std::min(65535.0, gain * plain.pictures[i](u, v, 1));
+        ASSERT_NEAR(exposed.pictures[i](u, v, 1), wanted, 2);
+      }
+  }
+}
+
 TEST(SyntheticCapture, TheSameOptionsGiveTheSamePhotographs) {
   SyntheticPath path = path_of(Shape::kWalk);
   path.off_line = 0.02;
@@ -195,6 +345,12 @@ TEST(SyntheticCapture, ABadOptionIsNamedWithItsValue) {
   expect([](O&, P& p) { p.off_line = 1; }, "off_line", "1");
   expect([](O&, P& p) { p.rotation_noise = 90; }, "rotation_noise", "90");
   expect([](O&, P& p) { p.distortion = 0.5; }, "distortion", "0.5");
+  expect([](O&, P& p) { p.exposure_noise = 2; }, "exposure_noise", "2");
+  expect([](O&, P& p) { p.step = 21; }, "step", "21");
+  expect([](O&, P& p) { p.step = -1; }, "step", "-1");
+  expect([](O& o, P& p) { p.step = 20, o.views_s = 6; }, "step * (views_s - 1)", "100");
+  expect([](O& o, P& p) { p.step = 20, o.views_s = 8, o.scene = "room"; }, "step", "140");
+  expect([](O&, P& p) { p.step = 5, p.shape = Shape::kLine; }, "step", "line");
 }
 
 TEST(SyntheticCapture, AnErrorOfTheSinkStopsTheRun) {

@@ -41,6 +41,13 @@ void require_range(const std::string& field, double value, double low, double hi
           "from " + to_text(low) + " to " + to_text(high));
 }
 
+bool has_room_around(const std::string& scene) { return scene == "room" || scene == "figure"; }
+
+double widest_turn_deg(const std::string& scene) {
+  if (scene == "figure") return 360;
+  return scene == "room" ? 120 : 90;
+}
+
 std::vector<bool> choose_outliers(const SyntheticOptions& options, int num_views) {
   constexpr std::uint64_t kChoiceKey = 0xc401ce;
   std::vector<std::pair<std::uint64_t, int>> order;
@@ -103,8 +110,9 @@ void SyntheticOptions::check() const {
 }
 
 const std::vector<std::string>& synthetic_scene_names() {
-  static const std::vector<std::string> names = {
-      "planes", "rods", "sphere", "wall", "specular", "plaster", "silhouettes", "wedges", "garden"};
+  static const std::vector<std::string> names = {"planes",   "rods",    "sphere",      "wall",
+                                                 "specular", "plaster", "silhouettes", "wedges",
+                                                 "room",     "figure",  "garden"};
   return names;
 }
 
@@ -133,8 +141,8 @@ void render_synthetic_views(const SyntheticOptions& options, const RunControl& c
       int(views.size()),
       [&](int i) {
         auto [picture, disparity] = synthetic::render_view(
-            scene, options, i, synthetic::ViewRays(scene.rig, views[i]),
-            [&](double z) { return scene.rig.disparity(z); }, has_outlier[i], control);
+            scene, options, {i, has_outlier[i]}, synthetic::ViewRays(scene.rig, views[i]),
+            [&](synthetic::Hit hit) { return scene.rig.disparity(hit.z); }, control);
         sink(i, std::move(picture), std::move(disparity));
       },
       [&](int done) { control.progress("rendering", done, total); });

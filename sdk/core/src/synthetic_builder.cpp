@@ -50,7 +50,7 @@ Primitive SceneBuilder::plane_through(double nearness, double per_x, double per_
   // Along: horizontal. Across: downwards or towards the viewer.
   plane.along = normalised(Vec3d{plane.normal.z, 0, -plane.normal.x});
   const Vec3d n = normalised(plane.normal), a = plane.along;
-  plane.across = {n.y * a.z - n.z * a.y, n.z * a.x - n.x * a.z, n.x * a.y - n.y * a.x};
+  plane.across = cross(n, a);
   plane.x0 = plane.y0 = -kNoHit;
   plane.x1 = plane.y1 = kNoHit;
   return plane;
@@ -162,6 +162,53 @@ void SceneBuilder::railing(Place left, Place right, double height, int num_bars,
     const double k = (i + 0.5) / num_bars;
     rod(between(k, 0), between(k, height), radius, material);
   }
+}
+
+void SceneBuilder::panel(Vec3d centre, Vec3d half_along, Vec3d half_across, int material) {
+  Primitive panel;
+  panel.kind = Primitive::Kind::kPanel;
+  panel.material = material;
+  panel.centre = centre;
+  panel.along = normalised(half_along);
+  panel.across = normalised(half_across);
+  panel.x1 = dot(half_along, panel.along);
+  panel.y1 = dot(half_across, panel.across);
+  panel.normal = cross(panel.along, panel.across);
+  scene_.primitives.push_back(panel);
+}
+
+void SceneBuilder::box(Vec3d centre, Vec3d half_x, Vec3d half_y, Vec3d half_z, int material) {
+  for (const double side : {-1.0, 1.0}) {
+    panel(centre + side * half_z, half_x, half_y, material);
+    panel(centre + side * half_x, half_z, half_y, material);
+    panel(centre + side * half_y, half_x, half_z, material);
+  }
+}
+
+void SceneBuilder::pole(Vec3d from, Vec3d to, double radius, int material) {
+  Primitive pole;
+  pole.kind = Primitive::Kind::kRod;
+  pole.material = material;
+  pole.radius = std::max(radius, kMinRadiusPx * std::min(from.z, to.z) * scene_.rig.pixel());
+  pole.centre = from;
+  const Vec3d span = to - from;
+  pole.length = std::sqrt(dot(span, span));
+  pole.axis = normalised(span);
+  scene_.primitives.push_back(pole);
+}
+
+void SceneBuilder::globe(Vec3d centre, double radius, int material) {
+  Primitive globe;
+  globe.kind = Primitive::Kind::kBall;
+  globe.material = material;
+  globe.centre = centre;
+  globe.radius = radius;
+  scene_.primitives.push_back(globe);
+}
+
+void SceneBuilder::shell(Vec3d centre, double radius, int material) {
+  globe(centre, radius, material);
+  scene_.primitives.back().kind = Primitive::Kind::kShell;
 }
 
 void SceneBuilder::add_gloss(int material, Place place, Vec3d normal, float strength, int power) {

@@ -53,6 +53,22 @@ class SceneBuilder {
   void rod(Place from, Place to, double radius, int material);
   /// Two rails and their upright bars between two places of the same height.
   void railing(Place left, Place right, double height, int num_bars, double radius, int material);
+  // The same in scene units, for scenes that cameras look at from all sides.
+  /// A rectangle around a point: two vectors from there to the middles of two sides.
+  void panel(Vec3d centre, Vec3d half_along, Vec3d half_across, int material);
+  /// Six panels: three vectors from the middle to those of three faces.
+  void box(Vec3d centre, Vec3d half_x, Vec3d half_y, Vec3d half_z, int material);
+  /// A rod between two points, a ball, and a ball that everything stands in. Rods are never thinner
+  /// than a pixel and a half where they are nearer.
+  void pole(Vec3d from, Vec3d to, double radius, int material);
+  void globe(Vec3d centre, double radius, int material);
+  void shell(Vec3d centre, double radius, int material);
+  /// Half of the picture's width and height at Z = 1.
+  double half_width() const { return 0.5 * scene_.rig.width / scene_.rig.focal; }
+  double half_height() const { return 0.5 * scene_.rig.height / scene_.rig.focal; }
+  /// Depth of the point that paths go around.
+  double middle_z() const { return scene_.rig.z(0.5); }
+
   /// Makes the surface under a place of a card mirror a lamp there in the centre view.
   void add_gloss(int material, Place place, Vec3d normal, float strength, int power);
   /// Normal of the card that was added last.

@@ -21,6 +21,8 @@ using synthetic::Vec3d;
 constexpr std::uint64_t kPathKey = 0x9a74;
 constexpr std::uint64_t kPointKey = 0x9017;
 constexpr int kNumPoints = 4000;
+/// Of the encoding: what a gain in linear light does to an encoded value.
+constexpr double kGamma = 2.2;
 
 Eigen::Vector3d to_eigen(Vec3d a) { return {a.x, a.y, a.z}; }
 
@@ -48,30 +50,50 @@ class PathNoise {
   std::uint64_t seed_;
 };
 
+double radians(double degrees) { return degrees * std::numbers::pi / 180; }
+
+/// Angle between the first and the last camera, or 0 for a straight path.
+double whole_turn(const SyntheticOptions& options, const SyntheticPath& path, double radius) {
+  if (path.step > 0) return radians(path.step) * (options.views_s - 1);
+  return path.shape == SyntheticPath::Shape::kArc ? path.extent / radius : 0;
+}
+
+/// Stops of a photograph.
+double exposure_of(const SyntheticOptions& options, const SyntheticPath& path, int view_idx) {
+  constexpr int kExposureKey = 6;
+  return path.exposure_noise * PathNoise(options.seed)(view_idx, kExposureKey);
+}
+
 std::vector<Camera> cameras_along(const SyntheticOptions& options, const SyntheticPath& path) {
   const synthetic::Rig rig(options);
   const PathNoise noise(options.seed);
   // The middle of the inverse depths.
   const Eigen::Vector3d target(0, 0, rig.z(0.5));
   const double spacing = 1.0 / (options.views_s - 1);
+  const double turn = whole_turn(options, path, target.z());
+  // A wide walk stays as level as the middling one: it doesn't dive through the floor.
+  constexpr double kWidestSway = 0.5;
+  const double sway = std::min(turn > 0 ? turn * target.z() : path.extent, kWidestSway);
   std::vector<Camera> cameras;
   for (int i = 0; i < options.views_s; ++i) {
     const double along = i * spacing - 0.5 + path.spacing_noise * spacing * noise(i, 0);
     Eigen::Vector3d position(along * path.extent, 0, 0);
     Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
-    if (path.shape == SyntheticPath::Shape::kArc) {
-      const double angle = along * path.extent / target.z();
+    if (turn > 0) {
+      const double angle = along * turn;
       position = target + target.z() * Eigen::Vector3d(std::sin(angle), 0, -std::cos(angle));
-    } else if (path.shape == SyntheticPath::Shape::kWalk) {
+    }
+    if (path.shape == SyntheticPath::Shape::kWalk) {
       // Waves without a common period, so that no two stretches are alike.
-      position.y() = 0.25 * path.extent * triangle_wave(along * std::numbers::pi);
-      position.z() = 0.125 * path.extent * triangle_wave(along * std::numbers::e + 0.3);
+      position.y() = 0.25 * sway * triangle_wave(along * std::numbers::pi);
+      const double nearer = 0.125 * sway * triangle_wave(along * std::numbers::e + 0.3);
+      position += nearer * Eigen::Vector3d(-std::sin(along * turn), 0, std::cos(along * turn));
     }
     for (int axis = 0; axis < 3; ++axis)
       if (axis != 0) position[axis] += path.off_line * noise(i, axis);
     if (path.shape != SyntheticPath::Shape::kLine) rotation = looking_at(position, target);
     for (int axis = 0; axis < 3; ++axis) {
-      const double angle = path.rotation_noise * std::numbers::pi / 180 * noise(i, 3 + axis);
+      const double angle = radians(path.rotation_noise) * noise(i, 3 + axis);
       rotation =
           Eigen::AngleAxisd(angle, Eigen::Vector3d::Unit(axis)).toRotationMatrix() * rotation;
     }
@@ -100,12 +122,14 @@ class Photographs {
 
   const std::vector<Camera>& cameras() const { return cameras_; }
 
+  /// What a pixel shows; without sights where it shows nothing.
   SyntheticCapture::Point point_at(int view_idx, const Eigen::Vector2d& pixel) const {
     const Vec3d direction = rays_[view_idx].direction(pixel.x(), pixel.y());
     const Vec3d origin = rays_[view_idx].origin();
     const synthetic::Hit hit = first_hit(origin, direction);
     const Vec3d place = origin + hit.z * direction;
     SyntheticCapture::Point point;
+    if (synthetic::is_void(scene_, hit)) return point;
     point.position = to_eigen(place);
     const synthetic::Colour colour = synthetic::shade_hit(scene_, hit, origin, direction);
     const float linear[3] = {colour.x, colour.y, colour.z};
@@ -155,6 +179,9 @@ void check(const SyntheticOptions& options, const SyntheticPath& path) {
   options.check();
   path.check();
   synthetic::require_range("views_t", options.views_t, 1, 1);
+  if (path.step > 0)
+    synthetic::require_range("step * (views_s - 1)", path.step * (options.views_s - 1), 0,
+                             synthetic::widest_turn_deg(options.scene));
 }
 
 }  // namespace
@@ -165,7 +192,11 @@ void SyntheticPath::check() const {
   synthetic::require_range("spacing_noise", spacing_noise, 0, 0.3);
   synthetic::require_range("off_line", off_line, 0, 0.1);
   synthetic::require_range("rotation_noise", rotation_noise, 0, 10);
+  synthetic::require_range("exposure_noise", exposure_noise, 0, 1);
   synthetic::require_range("distortion", distortion, -0.2, 0.2);
+  synthetic::require_range("step", step, 0, kWidestStepDeg);
+  synthetic::require(step == 0 || shape != Shape::kLine, "step", "stated",
+                     "left out on a line, which has an extent");
 }
 
 SyntheticCapture describe_synthetic_capture(const SyntheticOptions& options,
@@ -175,6 +206,8 @@ SyntheticCapture describe_synthetic_capture(const SyntheticOptions& options,
   SyntheticCapture capture;
   capture.cameras = photographs.cameras();
   for (const View& view : synthetic::make_views(options)) capture.names.push_back(view.name);
+  for (int i = 0; i < options.views_s; ++i)
+    capture.exposures.push_back(exposure_of(options, path, i));
   for (int i = 0; i < kNumPoints; ++i) {
     const auto draw = [&](int what, double high) {
       return synthetic::uniform(
@@ -197,9 +230,14 @@ void render_synthetic_capture(const SyntheticOptions& options, const SyntheticPa
   parallel_for(
       options.views_s,
       [&](int i) {
+        const double gain = std::exp2(exposure_of(options, path, i) / kGamma);
         auto [picture, depth] = synthetic::render_view(
-            scene, options, i, synthetic::ViewRays(cameras[i], path.distortion),
-            [](double z) { return z; }, has_outlier[i], control);
+            scene, options, {i, has_outlier[i], float(gain)},
+            synthetic::ViewRays(cameras[i], path.distortion),
+            [&](synthetic::Hit hit) {
+              return synthetic::is_void(scene, hit) ? synthetic::kNoHit : hit.z;
+            },
+            control);
         sink(i, std::move(picture), std::move(depth));
       },
       [&](int done) { control.progress("rendering", done, options.views_s); });

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <initializer_list>
 
+#include "synthetic_options.h"
 #include "synthetic_scene.h"
 
 namespace gigaray::synthetic {
@@ -11,6 +12,7 @@ namespace {
 
 /// Z of the farthest surface over that of the nearest: enough for a lively perspective.
 constexpr double kDepthRatio = 2.5;
+constexpr double kDepthRatioOfRooms = 4;
 /// Focal length over the longer side of the picture.
 constexpr double kFocalOverSize = 1.2;
 
@@ -28,6 +30,23 @@ double intersect_ball(Vec3d centre, double radius, Vec3d origin, Vec3d direction
                     dot(from_centre, from_centre) - radius * radius);
 }
 
+double intersect_shell(Vec3d centre, double radius, Vec3d origin, Vec3d direction) {
+  const Vec3d from_centre = origin - centre;
+  const double a = dot(direction, direction), b = dot(direction, from_centre);
+  const double c = dot(from_centre, from_centre) - radius * radius;
+  const double discriminant = b * b - a * c;
+  return c < 0 && discriminant > 0 ? (-b + std::sqrt(discriminant)) / a : kNoHit;
+}
+
+double intersect_panel(const Primitive& panel, Vec3d origin, Vec3d direction) {
+  const double k = dot(panel.normal, panel.centre - origin) / dot(panel.normal, direction);
+  if (!(k > 0) || k == kNoHit) return kNoHit;
+  const Vec3d p = origin + k * direction - panel.centre;
+  const bool is_inside =
+      std::abs(dot(p, panel.along)) <= panel.x1 && std::abs(dot(p, panel.across)) <= panel.y1;
+  return is_inside ? k : kNoHit;
+}
+
 double intersect_rod(const Primitive& rod, Vec3d origin, Vec3d direction) {
   const Vec3d from_end = origin - rod.centre;
   const double along = dot(rod.axis, from_end), climb = dot(rod.axis, direction);
@@ -42,6 +61,11 @@ double intersect_rod(const Primitive& rod, Vec3d origin, Vec3d direction) {
   return std::min(
       intersect_ball(rod.centre, rod.radius, origin, direction),
       intersect_ball(rod.centre + rod.length * rod.axis, rod.radius, origin, direction));
+}
+
+bool is_round(const Primitive& primitive) {
+  return primitive.kind == Primitive::Kind::kBall || primitive.kind == Primitive::Kind::kShell ||
+         primitive.kind == Primitive::Kind::kRod;
 }
 
 bool card_covers(const Primitive& card, double x, double y) {
@@ -65,7 +89,7 @@ Rig::Rig(const SyntheticOptions& options)
       cx((options.width - 1) / 2.0),
       cy((options.height - 1) / 2.0),
       focal(kFocalOverSize * std::max(options.width, options.height)),
-      far_z(kDepthRatio),
+      far_z(has_room_around(options.scene) ? kDepthRatioOfRooms : kDepthRatio),
       near_disparity((options.disparity.max - options.disparity.min) * far_z / (far_z - 1)),
       offset(options.disparity.max - near_disparity) {}
 
@@ -147,13 +171,17 @@ double intersect(const Primitive& primitive, const Rig& rig, Vec3d origin, Vec3d
       return intersect_ball(primitive.centre, primitive.radius, origin, direction);
     case Primitive::Kind::kRod:
       return intersect_rod(primitive, origin, direction);
+    case Primitive::Kind::kPanel:
+      return intersect_panel(primitive, origin, direction);
+    case Primitive::Kind::kShell:
+      return intersect_shell(primitive.centre, primitive.radius, origin, direction);
   }
   return kNoHit;
 }
 
 Vec3d surface_normal(const Primitive& primitive, Vec3d p, Vec3d direction) {
   Vec3d normal = primitive.normal;
-  if (primitive.kind == Primitive::Kind::kBall) {
+  if (is_round(primitive) && primitive.kind != Primitive::Kind::kRod) {
     normal = p - primitive.centre;
   } else if (primitive.kind == Primitive::Kind::kRod) {
     const Vec3d from_end = p - primitive.centre;
@@ -165,8 +193,7 @@ Vec3d surface_normal(const Primitive& primitive, Vec3d p, Vec3d direction) {
 }
 
 Vec3f texture_point(const Primitive& primitive, Vec3d p) {
-  if (primitive.kind == Primitive::Kind::kBall || primitive.kind == Primitive::Kind::kRod)
-    return to_float(p);
+  if (is_round(primitive)) return to_float(p);
   return {float(dot(p, primitive.along)), float(dot(p, primitive.across)), 0};
 }
 
@@ -179,7 +206,14 @@ PixelBox bounds(const Primitive& primitive, const Rig& rig, const ViewRays& rays
     is_before &= z > 0;
     box = {std::min(box.u0, u), std::max(box.u1, u), std::min(box.v0, v), std::max(box.v1, v)};
   };
-  if (primitive.kind != Primitive::Kind::kBall && primitive.kind != Primitive::Kind::kRod) {
+  if (primitive.kind == Primitive::Kind::kShell) return everywhere;
+  if (primitive.kind == Primitive::Kind::kPanel) {
+    for (const double x : {-primitive.x1, primitive.x1})
+      for (const double y : {-primitive.y1, primitive.y1})
+        grow(primitive.centre + x * primitive.along + y * primitive.across);
+    return is_before ? box : everywhere;
+  }
+  if (!is_round(primitive)) {
     for (const double x : {primitive.x0, primitive.x1}) {
       for (const double y : {primitive.y0, primitive.y1}) {
         if (!std::isfinite(x) || !std::isfinite(y)) return everywhere;

@@ -92,6 +92,7 @@ float power_of_two_power(float x, int exponent) {
 }  // namespace
 
 Colour shade(const Material& material, Vec3f p, Vec3f normal, Vec3f to_viewer, float footprint) {
+  if (material.is_void) return material.mid;
   const float diffuse = std::max(0.0f, dot(normal, kLampDirection));
   Colour colour = (kAmbient + (1.08f - kAmbient) * diffuse) * texture(material, p, footprint);
   if (material.gloss > 0) {

@@ -11,4 +11,11 @@ void require(bool holds, const std::string& field, const std::string& value,
              const std::string& wanted);
 void require_range(const std::string& field, double value, double low, double high);
 
+/// Scenes built in scene units, with something in every direction; they are deeper than others.
+bool has_room_around(const std::string& scene);
+
+/// The greatest angle between the first and the last camera, as seen from the middle of the scene,
+/// from which all pictures are full of it, degrees.
+double widest_turn_deg(const std::string& scene);
+
 }  // namespace gigaray::synthetic

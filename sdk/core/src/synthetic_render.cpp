@@ -13,8 +13,11 @@ namespace {
 constexpr int kTile = 32;
 constexpr std::uint16_t kFigure = 0xffff;
 /// Rays per axis where one smooth surface fills the pixel; its texture has no wavelength below
-/// three pixels, so more of them change nothing that 8 bits show.
+/// three pixels, so more of them change nothing that 8 bits show …
 constexpr int kInteriorSamples = 2;
+/// … but on a panel seen at a slant, where a pixel is long: up to so many times as many.
+constexpr int kMaxSlantedFactor = 4;
+constexpr double kStretchPerFactor = 3;
 
 /// Somebody who walks through the picture of one view: a silhouette in pixels of that view.
 class Figure {
@@ -67,11 +70,11 @@ class Figure {
 
 class ViewRenderer {
  public:
-  ViewRenderer(const Scene& scene, const SyntheticOptions& options, int view_idx,
+  ViewRenderer(const Scene& scene, const SyntheticOptions& options, const ViewTraits& view,
                const ViewRays& rays, const Figure* figure, const RunControl& control)
       : scene_(scene),
         options_(options),
-        view_idx_(view_idx),
+        view_(view),
         rays_(rays),
         figure_(figure),
         control_(control),
@@ -80,7 +83,7 @@ class ViewRenderer {
     list_primitives();
   }
 
-  RenderedView render(const std::function<double(double z)>& truth_of) {
+  RenderedView render(const std::function<double(Hit)>& truth_of) {
     const int width = options_.width, height = options_.height;
     RenderedView out{Image<std::uint16_t>(width, height, 3), FloatMap(width, height)};
     Image<std::uint16_t> seen(width, height);
@@ -88,7 +91,7 @@ class ViewRenderer {
       control_.throw_if_cancelled();
       for (int u = 0; u < width; ++u) {
         const Hit hit = trace(tile(u, v), u, v);
-        out.truth(u, v) = float(truth_of(hit.z));
+        out.truth(u, v) = float(truth_of(hit));
         seen(u, v) = figure_ && figure_->covers(u, v) ? kFigure : std::uint16_t(hit.primitive);
       }
     }
@@ -172,9 +175,10 @@ class ViewRenderer {
   }
 
   Colour interior_pixel(int u, int v, std::uint16_t seen) const {
-    const int n = std::min(options_.samples, kInteriorSamples);
+    int n = std::min(options_.samples, kInteriorSamples);
     if (seen == kFigure)
       return average(n, u, v, [&](double x, double y) { return figure_->colour(x, y); });
+    n *= slanted_factor(seen, u, v);
     return average(n, u, v, [&](double x, double y) {
       Hit hit{seen, intersect(scene_.primitives[seen], scene_.rig, rays_.origin(),
                               rays_.direction(x, y))};
@@ -183,14 +187,21 @@ class ViewRenderer {
     });
   }
 
+  int slanted_factor(std::uint16_t seen, int u, int v) const {
+    const Primitive& primitive = scene_.primitives[seen];
+    if (primitive.kind != Primitive::Kind::kPanel) return 1;
+    const double cosine = std::abs(dot(primitive.normal, normalised(rays_.direction(u, v))));
+    return int(std::clamp(1 / (kStretchPerFactor * cosine), 1.0, double(kMaxSlantedFactor)));
+  }
+
   void store(Colour colour, int u, int v, Image<std::uint16_t>& picture) const {
     const float top = float((1 << options_.bit_depth) - 1);
     const float values[3] = {colour.x, colour.y, colour.z};
     for (int c = 0; c < 3; ++c) {
-      float value = values[c];
+      float value = view_.gain * values[c];
       if (options_.noise > 0) {
         const std::uint64_t place = (std::uint64_t(v) * options_.width + u) * 3 + c;
-        value += float(options_.noise) * gaussian(hash(options_.seed, view_idx_, place));
+        value += float(options_.noise) * gaussian(hash(options_.seed, view_.view_idx, place));
       }
       picture(u, v, c) = std::uint16_t(std::clamp(value, 0.0f, 1.0f) * top + 0.5f);
     }
@@ -198,7 +209,7 @@ class ViewRenderer {
 
   const Scene& scene_;
   const SyntheticOptions& options_;
-  int view_idx_;
+  ViewTraits view_;
   const ViewRays& rays_;
   const Figure* figure_;
   const RunControl& control_;
@@ -208,6 +219,10 @@ class ViewRenderer {
 
 }  // namespace
 
+bool is_void(const Scene& scene, Hit hit) {
+  return scene.materials[scene.primitives[hit.primitive].material].is_void;
+}
+
 Colour shade_hit(const Scene& scene, Hit hit, Vec3d origin, Vec3d direction) {
   const Primitive& primitive = scene.primitives[hit.primitive];
   const Vec3d p = origin + hit.z * direction;
@@ -216,12 +231,12 @@ Colour shade_hit(const Scene& scene, Hit hit, Vec3d origin, Vec3d direction) {
                to_float(normalised(-1.0 * direction)), float(hit.z * scene.rig.pixel()));
 }
 
-RenderedView render_view(const Scene& scene, const SyntheticOptions& options, int view_idx,
-                         const ViewRays& rays, const std::function<double(double z)>& truth_of,
-                         bool has_outlier, const RunControl& control) {
+RenderedView render_view(const Scene& scene, const SyntheticOptions& options,
+                         const ViewTraits& view, const ViewRays& rays,
+                         const std::function<double(Hit)>& truth_of, const RunControl& control) {
   constexpr std::uint64_t kFigureKey = 0x0f16;
-  const Figure figure(scene.rig, hash(options.seed, kFigureKey, std::uint64_t(view_idx)));
-  return ViewRenderer(scene, options, view_idx, rays, has_outlier ? &figure : nullptr, control)
+  const Figure figure(scene.rig, hash(options.seed, kFigureKey, std::uint64_t(view.view_idx)));
+  return ViewRenderer(scene, options, view, rays, view.has_outlier ? &figure : nullptr, control)
       .render(truth_of);
 }
 

@@ -21,7 +21,7 @@ using Colour = Vec3f;
 /// Parallel pinhole cameras whose pictures are shifted so that disparity is signed.
 /// A point (X, Y, Z) is seen in view (s, t), with d = near_disparity / Z + offset, at
 /// u = cx + focal X / Z - s d, v = cy + focal Y / Z - t d (the sign of light_field.h).
-/// The nearest surfaces stand at Z = 1, the farthest at Z = far_z.
+/// The nearest surfaces stand at Z = 1, the farthest at Z = far_z, as the centre view sees them.
 struct Rig {
   explicit Rig(const SyntheticOptions& options);
 
@@ -74,6 +74,7 @@ struct Material {
   Colour dark, mid, light;
   float scale = 0.2f;        ///< Coarsest wavelength, scene units.
   float persistence = 0.7f;  ///< Amplitude of each finer octave; larger is rougher.
+  bool is_void = false;      ///< Nothing is there: unlit, and without depth in photographs.
   float gloss = 0;           ///< Strength of the highlight, 0 … 1.
   int gloss_power = 7;       ///< Highlight width: the cosine is raised to 2^gloss_power.
   Vec3f gloss_direction;     ///< Unit vector towards the lamp that is mirrored.
@@ -87,19 +88,21 @@ Colour shade(const Material& material, Vec3f p, Vec3f normal, Vec3f to_viewer, f
 /// One surface. A card is the part of the plane dot(normal, P) = plane_k that the centre view sees
 /// inside [x0, x1] × [y0, y1] (px from the middle; may be infinite); a disc is the ellipse
 /// inscribed, a wedge the triangle with its tip in the middle of the side y0 and its base on y1,
-/// which may be above or below.
+/// which may be above or below. A panel is a rectangle anywhere in the scene, a shell a ball seen
+/// from inside.
 struct Primitive {
-  enum class Kind { kCard, kDisc, kWedge, kBall, kRod };
+  enum class Kind { kCard, kDisc, kWedge, kBall, kRod, kPanel, kShell };
   Kind kind = Kind::kCard;
   int material = 0;
   Vec3d normal;  ///< Card: as above, of any length.
   double plane_k = 0;
-  Vec3d along, across;  ///< Card: unit vectors in the plane, the axes of its texture.
+  Vec3d along, across;  ///< Card, panel: unit vectors in the plane, the axes of its texture.
+  /// Card: px. Panel: x1 and y1 are half its sides, scene units.
   double x0 = 0, x1 = 0, y0 = 0, y1 = 0;
-  Vec3d centre;  ///< Ball: centre. Rod: one end of its axis.
+  Vec3d centre;  ///< Ball, shell, panel: centre. Rod: one end of its axis.
   Vec3d axis;    ///< Rod: unit vector to the other end.
   double length = 0;
-  double radius = 0;  ///< Ball and rod, scene units.
+  double radius = 0;  ///< Ball, shell and rod, scene units.
 };
 
 inline constexpr double kNoHit = std::numeric_limits<double>::infinity();
@@ -111,8 +114,8 @@ double intersect(const Primitive& primitive, const Rig& rig, Vec3d origin, Vec3d
 /// Unit normal at a point of the surface, on the side of the viewer.
 Vec3d surface_normal(const Primitive& primitive, Vec3d p, Vec3d direction);
 
-/// Where a point of the surface lies in its texture: along, across, 0 on a card, the scene point
-/// itself on a ball or a rod.
+/// Where a point of the surface lies in its texture: along, across, 0 on a card or a panel, the
+/// scene point itself on a ball, a shell or a rod.
 Vec3f texture_point(const Primitive& primitive, Vec3d p);
 
 /// Pixels that a primitive may cover in a view; generous by up to the depth of its bounding box.
@@ -140,16 +143,25 @@ struct Hit {
   double z = kNoHit;
 };
 
+/// Whether a hit shows that nothing is there.
+bool is_void(const Scene& scene, Hit hit);
+
 /// Colour of a hit, lit.
 Colour shade_hit(const Scene& scene, Hit hit, Vec3d origin, Vec3d direction);
 
 struct RenderedView {
   Image<std::uint16_t> picture;
-  FloatMap truth;  ///< truth_of(z) for the ray of each pixel centre
+  FloatMap truth;  ///< truth_of(hit) for the ray of each pixel centre
 };
-RenderedView render_view(const Scene& scene, const SyntheticOptions& options, int view_idx,
-                         const ViewRays& rays, const std::function<double(double z)>& truth_of,
-                         bool has_outlier, const RunControl& control);
+/// What a view has of its own beside its rays.
+struct ViewTraits {
+  int view_idx = 0;
+  bool has_outlier = false;  ///< somebody walks through
+  float gain = 1;            ///< of the encoded value, before noise and clipping
+};
+RenderedView render_view(const Scene& scene, const SyntheticOptions& options,
+                         const ViewTraits& view, const ViewRays& rays,
+                         const std::function<double(Hit)>& truth_of, const RunControl& control);
 
 /// Views with something that walks through: the share of them, those with the smallest hashes.
 std::vector<bool> choose_outliers(const SyntheticOptions& options, int num_views);

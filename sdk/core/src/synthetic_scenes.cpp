@@ -4,6 +4,7 @@
 
 #include "synthetic_builder.h"
 #include "synthetic_hard_scenes.h"
+#include "synthetic_room_scenes.h"
 
 namespace gigaray::synthetic {
 namespace {
@@ -193,6 +194,8 @@ Scene build_scene(const SyntheticOptions& options) {
   if (options.scene == "plaster") build_plaster(builder);
   if (options.scene == "silhouettes") build_silhouettes(builder);
   if (options.scene == "wedges") build_wedges(builder);
+  if (options.scene == "room") build_room(builder);
+  if (options.scene == "figure") build_figure(builder);
   if (options.scene == "garden") build_garden(builder);
   return builder.finish();
 }

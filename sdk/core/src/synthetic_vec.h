@@ -15,6 +15,9 @@ struct Vec3 {
   friend constexpr Vec3 operator-(Vec3 a, Vec3 b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
   friend constexpr Vec3 operator*(T k, Vec3 a) { return {k * a.x, k * a.y, k * a.z}; }
   friend constexpr T dot(Vec3 a, Vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+  friend constexpr Vec3 cross(Vec3 a, Vec3 b) {
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+  }
   friend Vec3 normalised(Vec3 a) { return (T(1) / std::sqrt(dot(a, a))) * a; }
 };
 

@@ -51,6 +51,8 @@ struct SyntheticLightField {
 /// "plaster" a corridor between sloping walls: one without texture, one of which is barely visible
 /// "silhouettes" things before a wall of the same colours and texture
 /// "wedges"  thin wedges before a slanted plane
+/// "room"    inside a furnished room, 1 to 4 away: floor and walls at a slant, bare and dark parts
+/// "figure"  a chair with thin bars, a ball, and nothing around them but white
 /// "garden"  planes, rods, balls, a bare and a glossy surface in one picture; the demo
 const std::vector<std::string>& synthetic_scene_names();
 
