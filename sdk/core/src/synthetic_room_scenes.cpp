@@ -81,7 +81,7 @@ void add_partition(SceneBuilder& b, const Room& room) {
 }
 
 void add_table(SceneBuilder& b, const Room& room) {
-  const double x0 = b.random(-0.02, 0.04), x1 = x0 + 0.62, z0 = 2.05, z1 = 2.6, top = 0.1;
+  const double x0 = b.random(0.06, 0.1), x1 = x0 + 0.58, z0 = 2.05, z1 = 2.6, top = 0.1;
   constexpr double kHalfThickness = 0.012, kLegRadius = 0.0075, kInset = 0.03;
   const int look = wood(b);
   b.box({(x0 + x1) / 2, top, (z0 + z1) / 2}, {(x1 - x0) / 2, 0, 0}, {0, kHalfThickness, 0},
@@ -90,7 +90,7 @@ void add_table(SceneBuilder& b, const Room& room) {
     for (const double z : {z0 + kInset, z1 - kInset})
       b.pole({x, top, z}, {x, room.floor, z}, kLegRadius, look);
   const double radius = 0.085;
-  b.globe({x0 + 0.42, top - kHalfThickness - radius, 2.3}, radius,
+  b.globe({x0 + 0.38, top - kHalfThickness - radius, 2.3}, radius,
           b.material(Pattern::kChecks, {0.62f, 0.14f, 0.12f}, {0.86f, 0.55f, 0.40f},
                      {0.98f, 0.93f, 0.80f}, 0.06f, 0.9f));
 }
