@@ -7,6 +7,8 @@
 #include <cmath>
 #include <limits>
 
+#include "support/errors.h"
+
 namespace gigaray {
 namespace {
 
@@ -136,6 +138,90 @@ TEST(Metrics, WhatCannotBeScoredIsAnError) {
   EXPECT_THROW(score_disparity(map, map, 0, Mask(7, 5)), Error) << "the mask leaves nothing";
   EXPECT_THROW(score_disparity(map, map, -1), Error);
   EXPECT_THROW(score_disparity(map, FloatMap(7, 5, 1, kNaN), 0), Error);
+}
+
+TEST(DepthMetrics, SharesAreOfTheRelativeErrorAndOfAllOrOfTheFilled) {
+  // Errors of 0.4, 0.9, 1.9, 4.9 and 9 %, one pixel without an estimate; of depths that differ.
+  const FloatMap truth = row_of({1, 2, 4, 8, 16, 32});
+  const FloatMap estimate =
+      row_of({1.004f, 2 * 0.991f, 4 * 1.019f, 8 * 0.951f, 16 * 1.09f, kNaN});
+  DepthErrors errors;
+  errors.add(estimate, truth);
+  const DepthScores scores = errors.scores();
+  EXPECT_EQ(scores.scored, 6);
+  EXPECT_DOUBLE_EQ(scores.filled, 500 / 6.0);
+  for (int i = 0; i < 4; ++i) {
+    EXPECT_DOUBLE_EQ(scores.within[i], 100 * (i + 1) / 6.0);
+    EXPECT_DOUBLE_EQ(scores.within_filled[i], 20 * (i + 1));
+  }
+  EXPECT_NEAR(scores.median, 1.9, 1e-4);
+}
+
+TEST(DepthMetrics, UnknownTruthIsNotScoredAndNoDepthIsNoEstimate) {
+  DepthErrors errors;
+  errors.add(row_of({1, 1, 1, 1, 0, -1, kInfinity}), row_of({0, kNaN, kInfinity, -2, 1, 1, 1}));
+  EXPECT_EQ(errors.scores().scored, 3);
+  EXPECT_EQ(errors.scores().filled, 0);
+  EXPECT_EQ(errors.scores().within[3], 0);
+  EXPECT_TRUE(std::isnan(errors.scores().within_filled[3]));
+  EXPECT_TRUE(std::isnan(errors.scores().median));
+  EXPECT_TRUE(std::isnan(DepthErrors().scores().within[0]));
+}
+
+TEST(DepthMetrics, TheMostConfidentAreCountedOfThoseKeptAndOfAll) {
+  const FloatMap truth(8, 1, 1, 2.0f);
+  // The surer half is exact, but for one pixel.
+  const FloatMap estimate = row_of({2, 2, 3, 2, 3, 3, 3, kNaN});
+  const FloatMap confidence = row_of({0.9f, 0.8f, 0.7f, 0.6f, 0.5f, 0.4f, kNaN, 1});
+  DepthErrors errors;
+  errors.add(estimate, truth, confidence);
+  const DepthScores half = errors.most_confident(50);
+  EXPECT_DOUBLE_EQ(half.filled, 50);
+  EXPECT_DOUBLE_EQ(half.within_filled[0], 75);
+  EXPECT_DOUBLE_EQ(half.within[0], 37.5);
+  EXPECT_DOUBLE_EQ(half.median, 0);
+  EXPECT_DOUBLE_EQ(errors.most_confident(25).within_filled[1], 100);
+  // Fewer estimates than asked for: all of them.
+  EXPECT_DOUBLE_EQ(errors.most_confident(100).filled, 700 / 8.0);
+  EXPECT_DOUBLE_EQ(errors.most_confident(100).within_filled[0], 300 / 7.0);
+  EXPECT_EQ(errors.most_confident(0).filled, 0);
+  testing_support::expect_error(ErrorCode::kInvalidArgument, {"101"},
+                                [&] { errors.most_confident(101); });
+}
+
+TEST(DepthMetrics, EquallySurePixelsAreNotTakenFromOneEndOfThePicture) {
+  const int width = 100;
+  FloatMap estimate(width, width, 1, 1.0f);
+  for (int v = 0; v < width / 2; ++v)
+    for (int u = 0; u < width; ++u) estimate(u, v) = 2;
+  const FloatMap flat(width, width, 1, 1.0f);
+  DepthErrors errors;
+  errors.add(estimate, flat, flat);
+  EXPECT_NEAR(errors.most_confident(50).within_filled[0], 50, 2);
+}
+
+TEST(DepthMetrics, ViewsAreCountedTogetherAndOneWithoutConfidenceTakesItFromAll) {
+  DepthErrors errors;
+  errors.add(row_of({1, 1}), row_of({1, 1}), row_of({1, 1}));
+  EXPECT_EQ(errors.most_confident(50).within_filled[0], 100);
+  errors.add(row_of({2, 2}), row_of({1, 1}));
+  EXPECT_EQ(errors.scores().scored, 4);
+  EXPECT_EQ(errors.scores().within[3], 50);
+  EXPECT_TRUE(std::isnan(errors.most_confident(50).within_filled[0]));
+  EXPECT_TRUE(std::isnan(errors.most_confident(50).filled));
+}
+
+TEST(DepthMetrics, BorderAndSizesAreChecked) {
+  DepthErrors errors;
+  FloatMap estimate(5, 3, 1, 1.0f);
+  estimate(0, 0) = 9;
+  errors.add(estimate, FloatMap(5, 3, 1, 1.0f), {}, 1);
+  EXPECT_EQ(errors.scores().scored, 3);
+  EXPECT_EQ(errors.scores().within[0], 100);
+  testing_support::expect_error(ErrorCode::kBadInput, {"5 x 3", "4 x 3"},
+                                [&] { errors.add(estimate, FloatMap(4, 3)); });
+  testing_support::expect_error(ErrorCode::kBadInput, {"4 x 3"},
+                                [&] { errors.add(estimate, estimate, FloatMap(4, 3)); });
 }
 
 }  // namespace

@@ -2,6 +2,9 @@
 // Copyright (c) 2026 The Gigaray authors
 #pragma once
 
+#include <array>
+#include <vector>
+
 #include "gigaray/image.h"
 
 namespace gigaray {
@@ -46,5 +49,42 @@ struct MiddleburyScores {
 
 MiddleburyScores score_middlebury(const FloatMap& estimate, const FloatMap& truth, int border = 0,
                                   const Mask& mask = {});
+
+/// Scores of depth, of errors relative to the true one: |estimate / truth - 1|.
+struct DepthScores {
+  static constexpr std::array<double, 4> kWithinPercent{0.5, 1, 2, 5};
+  std::array<double, 4> within{};         ///< Percentage of scored pixels within each of those
+  std::array<double, 4> within_filled{};  ///< The same of the pixels with an estimate; NaN: none
+  double median = 0;  ///< Of the error, percent, of pixels with an estimate; NaN: none
+  double filled = 0;  ///< Percentage of scored pixels that have an estimate.
+  long scored = 0;    ///< Number of scored pixels; 0: all shares are NaN.
+};
+
+/// Relative errors of depth maps, of one view or of several together; 8 bytes per estimate.
+class DepthErrors {
+ public:
+  /// Adds a view. Scored are pixels whose true depth is finite and above 0, an estimate counts when
+  /// it is too. confidence: finite or NaN, any scale; empty: not known. Throws Error(kBadInput)
+  /// when sizes differ, Error(kInvalidArgument) for a negative border.
+  void add(const FloatMap& estimate, const FloatMap& truth, const FloatMap& confidence = {},
+           int border = 0);
+
+  DepthScores scores() const;
+  /// As if only the most confident pixels had estimates: so many percent (0 … 100) of those scored,
+  /// or all estimates where there are fewer. Which of several equally sure ones stay is chance, and
+  /// always the same. NaN when a view came without confidence.
+  DepthScores most_confident(double percent) const;
+
+ private:
+  struct Pixel {
+    float error;
+    float confidence;
+  };
+  DepthScores scores_of(const std::vector<Pixel>& filled) const;
+
+  std::vector<Pixel> filled_;
+  long scored_ = 0;
+  bool has_confidence_ = true;
+};
 
 }  // namespace gigaray
