@@ -176,7 +176,7 @@ ordered_json contest_json(const Contest& contest, const std::vector<Contestant>&
 }
 
 std::string contest_csv(const std::vector<Contestant>& contestants) {
-  return scores_as_csv(rows_of(contestants));
+  return scores_as_csv({rows_of(contestants), {}});
 }
 
 std::vector<std::vector<std::string>> contest_table(const Contest& contest,

@@ -12,6 +12,7 @@
 #include "command.h"
 #include "did_you_mean.h"
 #include "error_map.h"
+#include "evaluate_depth.h"
 #include "evaluate_report.h"
 #include "evaluate_scene.h"
 #include "evaluate_scores.h"
@@ -30,10 +31,12 @@ constexpr auto kTable = {".csv", ".txt"};
 
 struct EvaluateOptions {
   std::vector<fs::path> maps;  ///< The last one is the truth.
-  std::string views = "centre";
+  std::string views;           ///< Empty: not stated.
   std::vector<std::string> metrics{"hci"};
   std::vector<std::string> masks;
   ScoreChoice choice;
+  DepthChoice depth;
+  bool kept_is_stated = false;
   MemoryBudget memory;
   bool json = false;
   std::string csv;
@@ -41,6 +44,10 @@ struct EvaluateOptions {
   double error_range = 0.2;
   bool replace = false;
 
+  bool wants(const char* name) const {
+    return std::find(metrics.begin(), metrics.end(), name) != metrics.end();
+  }
+  bool scores_depth() const { return wants("depth"); }
   bool writes_csv() const { return !csv.empty() && csv != "-"; }
   /// What the files that are written may do; they appear together, at the end.
   OutputRules rules() const {
@@ -78,11 +85,27 @@ fs::path error_map_path(const fs::path& path, const std::string& estimate,
   return path.parent_path() / (name + ".png");
 }
 
+void check_depth(const EvaluateOptions& options) {
+  const auto refuse = [](const std::string& text) {
+    throw Error(ErrorCode::kInvalidArgument, text);
+  };
+  if (!options.scores_depth()) {
+    if (options.depth.truth_scale) refuse("--truth-scale is for --metrics depth");
+    if (options.kept_is_stated) refuse("--kept is for --metrics depth");
+    return;
+  }
+  if (options.metrics.size() > 1)
+    refuse("--metrics depth compares depth, the others disparities; ask for them one by one");
+  if (!options.masks.empty()) refuse("--mask is for disparities, not for --metrics depth");
+  if (!options.error_map.empty()) refuse("--error-map is for disparities, not for --metrics depth");
+}
+
 void check(const EvaluateOptions& options) {
   const auto refuse = [](const std::string& text) {
     throw Error(ErrorCode::kInvalidArgument, text);
   };
   if (options.maps.size() < 2) refuse("TRUTH is missing; write ESTIMATE [ESTIMATE ...] TRUTH");
+  check_depth(options);
   if (!options.masks.empty() && options.views != "centre")
     refuse("--mask is for one view; leave --views out");
   if (!(options.error_range > 0 && std::isfinite(options.error_range)))
@@ -102,6 +125,14 @@ void require_memory(const EvaluateOptions& options, const ViewMaps& maps) {
   }
   options.memory.require(kProgramBytes + 8 * largest,
                          fmt::format("maps of {:.3g} million pixels", largest / 4e6));
+}
+
+ScoreTable score_as_depth(const EvaluateOptions& options, const RunControl& control) {
+  const std::vector<fs::path> estimates(options.maps.begin(), options.maps.end() - 1);
+  DepthChoice choice = options.depth;
+  choice.border = options.choice.border.value_or(0);
+  return score_depth(estimates, labels_of(estimates), options.maps.back(), options.views, choice,
+                     options.memory, control);
 }
 
 /// files: error maps are added.
@@ -141,43 +172,46 @@ std::vector<ScoreRow> score(const EvaluateOptions& options, std::vector<AtomicFi
 }
 
 void evaluate(EvaluateOptions options, const RunControl& control) {
-  const auto wants = [&](const char* name) {
-    return std::find(options.metrics.begin(), options.metrics.end(), name) != options.metrics.end();
-  };
-  options.choice.hci = wants("hci");
-  options.choice.middlebury = wants("middlebury");
+  options.choice.hci = options.wants("hci");
+  options.choice.middlebury = options.wants("middlebury");
+  if (options.views.empty()) options.views = options.scores_depth() ? "all" : "centre";
   check(options);
   std::vector<AtomicFile> files;
   if (options.writes_csv()) files.emplace_back(options.csv, options.rules(), kTable);
   // The names of several are known once the views are.
   if (!options.error_map.empty()) AtomicFile(options.error_map, options.rules(), kPicture);
-  const std::vector<ScoreRow> rows = score(options, files, control);
-  if (options.writes_csv()) files.front().write(scores_as_csv(rows));
+  const ScoreTable table = options.scores_depth() ? score_as_depth(options, control)
+                                                  : ScoreTable{score(options, files, control), {}};
+  if (options.writes_csv()) files.front().write(scores_as_csv(table));
   for (AtomicFile& file : files) file.commit(control);
   if (options.csv == "-")
-    fmt::print("{}", scores_as_csv(rows));
+    fmt::print("{}", scores_as_csv(table));
   else if (options.json)
-    fmt::print("{}", scores_as_json(rows));
+    fmt::print("{}", scores_as_json(table));
   else
-    fmt::print("{}", scores_as_text(rows));
+    fmt::print("{}", scores_as_text(table));
 }
 
 }  // namespace
 
 Run evaluate_command(CLI::App& app) {
-  app.description("Score disparity maps against the truth: HCI and Middlebury metrics");
+  app.description(
+      "Score disparity maps against the truth: HCI and Middlebury metrics; or depth maps: relative "
+      "errors");
   auto options = std::make_shared<EvaluateOptions>();
   app.add_option("ESTIMATE", options->maps,
                  "Disparity maps or folders of gigaray depth, several for a table; the last "
                  "argument is TRUTH: a map, or a folder with truth.pfm, gt_disp_lowres.pfm or the "
-                 "disparities of a Middlebury stereo pair")
+                 "disparities of a Middlebury stereo pair; for --metrics depth a map or a folder "
+                 "with VIEW.pfm, .exr, .npy or 16-bit .png")
       ->type_name("... TRUTH")
       ->required();
   app.add_option("--views", options->views,
-                 "centre, all, or a list of names: each against truth/VIEW.pfm of the TRUTH folder")
-      ->capture_default_str();
-  app.add_option("--metrics", options->metrics, "hci, middlebury or both")
-      ->check(one_of({"hci", "middlebury"}))
+                 "centre, all, or a list of names: each against truth/VIEW.pfm of the TRUTH folder "
+                 "[centre; all for depth]");
+  app.add_option("--metrics", options->metrics,
+                 "hci, middlebury or both; or depth: shares within 0.5, 1, 2 and 5 % of it")
+      ->check(one_of({"hci", "middlebury", "depth"}))
       ->delimiter(',')
       ->capture_default_str();
   app.add_option("--mask", options->masks,
@@ -185,8 +219,19 @@ Run evaluate_command(CLI::App& app) {
                  "an HCI scene are found in its folder")
       ->type_name("NAME=FILE")
       ->allow_extra_args(false);
+  app.add_option("--truth-scale", options->depth.truth_scale,
+                 "For depth: scene units of a value of the truth [1]");
+  app.add_option_function<std::vector<double>>(
+         "--kept",
+         [options](const std::vector<double>& percents) {
+           options->depth.kept = percents;
+           options->kept_is_stated = true;
+         },
+         "For depth: scores of the most confident so many percent of the pixels too [75]")
+      ->delimiter(',')
+      ->type_name("PERCENT,...");
   app.add_option("--border", options->choice.border,
-                 "Pixels left out on each side [15 for hci, 0 for middlebury]");
+                 "Pixels left out on each side [15 for hci, 0 for others]");
   options->memory.add_to(app, "some 32 bytes per pixel of a map");
   app.add_flag("--json", options->json, "Print JSON");
   app.add_option("--csv", options->csv, "Write a CSV table, a line per map; - prints it")

@@ -87,11 +87,12 @@ std::string one_view_text(const std::vector<ScoreRow>& rows) {
   return text;
 }
 
-std::string views_text(const std::vector<ScoreRow>& rows) {
+std::string views_text(const std::vector<ScoreRow>& rows, bool with_means) {
   const auto is_main = [](const Score& score) {
     // Of the whole picture; sub-regions have a dot behind their name.
     for (const char* name : {"BadPix0.07", "BadPix0.03", "BadPix0.01", "MSEx100", "NearJumps",
-                             "bad0.5", "bad1.0", "bad2.0", "avgerr", "rms", "filled"})
+                             "bad0.5", "bad1.0", "bad2.0", "avgerr", "rms", "within0.5", "within1",
+                             "within2", "within5", "median", "filled"})
       if (score.name == name) return true;
     return false;
   };
@@ -111,7 +112,7 @@ std::string views_text(const std::vector<ScoreRow>& rows) {
     const auto own = rows_of(rows, estimate);
     text += line("view", own.front()->scores, [](const Score& score) { return score.name; });
     for (const ScoreRow* row : own) text += line(row->view, row->scores, value);
-    text += line("mean", means(own), value);
+    if (with_means) text += line("mean", means(own), value);
   }
   return text;
 }
@@ -125,11 +126,14 @@ std::string csv_cell(const std::string& text) {
 
 }  // namespace
 
-std::string scores_as_text(const std::vector<ScoreRow>& rows) {
-  return rows.front().view.empty() ? one_view_text(rows) : views_text(rows);
+std::string scores_as_text(const ScoreTable& table) {
+  if (table.rows.front().view.empty()) return one_view_text(table.rows);
+  const std::string views = views_text(table.rows, table.pooled.empty());
+  return table.pooled.empty() ? views : views + "all\n" + one_view_text(table.pooled);
 }
 
-std::string scores_as_json(const std::vector<ScoreRow>& rows) {
+std::string scores_as_json(const ScoreTable& table) {
+  const std::vector<ScoreRow>& rows = table.rows;
   if (rows.size() == 1 && rows.front().view.empty())
     return object_of(rows.front().scores).dump() + "\n";
   ordered_json root = {{"scores", ordered_json::array()}};
@@ -139,7 +143,14 @@ std::string scores_as_json(const std::vector<ScoreRow>& rows) {
     entry.update(object_of(row.scores));
     root["scores"].push_back(entry);
   }
-  if (!rows.front().view.empty()) {
+  if (!table.pooled.empty()) {
+    root["all"] = ordered_json::array();
+    for (const ScoreRow& row : table.pooled) {
+      ordered_json entry = {{"estimate", row.estimate}};
+      entry.update(object_of(row.scores));
+      root["all"].push_back(entry);
+    }
+  } else if (!rows.front().view.empty()) {
     root["means"] = ordered_json::array();
     for (const std::string& estimate : estimates_of(rows)) {
       ordered_json entry = {{"estimate", estimate}};
@@ -150,7 +161,9 @@ std::string scores_as_json(const std::vector<ScoreRow>& rows) {
   return root.dump(-1, ' ', false, ordered_json::error_handler_t::replace) + "\n";
 }
 
-std::string scores_as_csv(const std::vector<ScoreRow>& rows) {
+std::string scores_as_csv(const ScoreTable& table) {
+  std::vector<ScoreRow> rows = table.rows;
+  rows.insert(rows.end(), table.pooled.begin(), table.pooled.end());
   std::string text = "estimate,view";
   for (const Score& score : rows.front().scores) text += "," + csv_cell(score.name);
   text += "\n";

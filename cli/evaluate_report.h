@@ -16,18 +16,26 @@ struct ScoreRow {
   std::vector<Score> scores;
 };
 
-// Each returns text that ends with a line break. rows: not empty; all have the same names of
-// scores, ordered by view, the estimates of a view in the order of the command line.
+/// What is printed. rows: not empty; all have the same names of scores, ordered by view, the
+/// estimates of a view in the order of the command line.
+struct ScoreTable {
+  std::vector<ScoreRow> rows;
+  /// Of all pixels of all views, one row per estimate; empty: the means over the views are meant.
+  std::vector<ScoreRow> pooled;
+};
+
+// Each returns text that ends with a line break.
 
 /// One view: a line per score with a column per estimate. Several: a line per view with its main
-/// scores, and their means, for one estimate after the other.
-std::string scores_as_text(const std::vector<ScoreRow>& rows);
+/// scores, and their means, for one estimate after the other; or all pooled scores below them.
+std::string scores_as_text(const ScoreTable& table);
 
 /// One map: an object of its scores. Several: {"scores": [...], "means": [...]}, each with its
-/// "estimate" and "view"; means over the views, if there are several. NaN is null.
-std::string scores_as_json(const std::vector<ScoreRow>& rows);
+/// "estimate" and "view"; means over the views, if there are several, or "all", the pooled scores.
+/// NaN is null.
+std::string scores_as_json(const ScoreTable& table);
 
-/// A line per estimate and view below a head line; NaN is an empty cell.
-std::string scores_as_csv(const std::vector<ScoreRow>& rows);
+/// A line per estimate and view below a head line, then those of all pixels; NaN is an empty cell.
+std::string scores_as_csv(const ScoreTable& table);
 
 }  // namespace gigaray::cli

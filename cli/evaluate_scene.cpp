@@ -103,15 +103,6 @@ std::set<std::string> views_with_estimate(const fs::path& estimate) {
   return views;
 }
 
-std::vector<std::string> names_in(const std::string& list) {
-  std::vector<std::string> names;
-  std::istringstream parts(list);
-  for (std::string part; std::getline(parts, part, ',');)
-    if (!part.empty()) names.push_back(part);
-  if (names.empty()) throw Error(ErrorCode::kInvalidArgument, "--views: no view is named");
-  return names;
-}
-
 std::vector<std::string> all_views(const std::vector<fs::path>& estimates, const fs::path& truth,
                                    const RunControl& control) {
   std::vector<std::string> views;
@@ -165,6 +156,15 @@ LabelMap read_mask(const fs::path& path, int width, int height) {
 
 }  // namespace
 
+std::vector<std::string> view_names_in(const std::string& list) {
+  std::vector<std::string> names;
+  std::istringstream parts(list);
+  for (std::string part; std::getline(parts, part, ',');)
+    if (!part.empty()) names.push_back(part);
+  if (names.empty()) throw Error(ErrorCode::kInvalidArgument, "--views: no view is named");
+  return names;
+}
+
 fs::path find_truth(const fs::path& place) { return look_for_map(place, kTruthNames); }
 
 FloatMap read_truth(const fs::path& path) {
@@ -194,7 +194,7 @@ std::vector<ViewMaps> find_view_maps(const std::vector<fs::path>& estimates, con
   for (const fs::path& path : estimates) require_folder(path, "VIEW/disparity.pfm");
   require_folder(truth, "truth/VIEW.pfm");
   const std::vector<std::string> names =
-      views == "all" ? all_views(estimates, truth, control) : names_in(views);
+      views == "all" ? all_views(estimates, truth, control) : view_names_in(views);
   std::vector<ViewMaps> result;
   for (const std::string& view : names) {
     ViewMaps maps{view, truth_of_view(truth, view), {}};

@@ -27,6 +27,9 @@ std::vector<ViewMaps> find_view_maps(const std::vector<std::filesystem::path>& e
                                      const std::filesystem::path& truth, const std::string& views,
                                      const RunControl& control);
 
+/// The names of a list separated by commas. Throws Error(kInvalidArgument) when there is none.
+std::vector<std::string> view_names_in(const std::string& list);
+
 /// Where the true disparity of a scene's centre view is: `place` itself when it is a file, else in
 /// the folder truth.pfm, gt_disp_lowres.pfm, or of a Middlebury stereo pair disp2.png or disp1.png,
 /// of one with calib.txt disp0GT.pfm or disp0.pfm.
