@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Copyright (c) 2026 The Gigaray authors
-"""Depth maps of posed views: against exact depth, and against each other."""
+"""Depth maps of posed views against each other."""
 
 import json
 
@@ -47,17 +47,6 @@ def views_of(result):
     if not entries or "camera" not in entries[0]:
         raise SystemExit(f"{result}: no result of posed views")
     return [PosedView(result, entry) for entry in entries]
-
-
-def errors(result, truth):
-    """Relative depth errors of all estimates of all views, and the number of pixels."""
-    found, pixels = [], 0
-    for view in views_of(result):
-        depth, exact = view.depth(), maps.read_pfm(truth / f"{view.name}.pfm")
-        known = np.isfinite(depth)
-        pixels += depth.size
-        found.append(np.abs(depth[known] / exact[known] - 1))
-    return np.concatenate(found), pixels
 
 
 def compare(first, second):
