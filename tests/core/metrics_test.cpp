@@ -143,8 +143,7 @@ TEST(Metrics, WhatCannotBeScoredIsAnError) {
 TEST(DepthMetrics, SharesAreOfTheRelativeErrorAndOfAllOrOfTheFilled) {
   // Errors of 0.4, 0.9, 1.9, 4.9 and 9 %, one pixel without an estimate; of depths that differ.
   const FloatMap truth = row_of({1, 2, 4, 8, 16, 32});
-  const FloatMap estimate =
-      row_of({1.004f, 2 * 0.991f, 4 * 1.019f, 8 * 0.951f, 16 * 1.09f, kNaN});
+  const FloatMap estimate = row_of({1.004f, 2 * 0.991f, 4 * 1.019f, 8 * 0.951f, 16 * 1.09f, kNaN});
   DepthErrors errors;
   errors.add(estimate, truth);
   const DepthScores scores = errors.scores();
