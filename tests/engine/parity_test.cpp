@@ -155,14 +155,19 @@ TYPED_TEST(Parity, RobustScores) {
     const char* stage;
     float gradient_share;
     ScoreViews views;
+    float slack;
   };
-  const Variant variants[] = {{"robust score", 0.7f, ScoreViews::kAll},
-                              {"robust score, gradient alone", 1.0f, ScoreViews::kAll},
-                              {"robust score, half-planes", 0.7f, ScoreViews::kHalfPlanes}};
+  const Variant variants[] = {{"robust score", 0.7f, ScoreViews::kAll, 0},
+                              {"robust score, gradient alone", 1.0f, ScoreViews::kAll, 0},
+                              {"robust score, slack", 0.7f, ScoreViews::kAll, 0.8f},
+                              {"robust score, half-planes", 0.7f, ScoreViews::kHalfPlanes, 0}};
   for (const Variant& variant : variants)
     for (const ParityCase& size : parity_cases()) {
       DepthOptions options = auto_options();
       options.score.gradient_share = variant.gradient_share;
+      options.score.colour_slack = variant.slack;
+      options.score.gradient_slack = variant.slack / 2;
+      options.score.unseen = variant.slack > 0 ? 0.1f : 0.5f;
       options.score.gradient_bandwidth = 0.02f;
       options.score.min_views = 0.4f;
       ParityBench<TypeParam> bench(size, options);
@@ -315,6 +320,9 @@ TYPED_TEST(Parity, Winners) {
     for (const bool refine : {false, true}) {
       DepthOptions options = auto_options();
       options.winner.refine = refine;
+      options.winner.peak_share = refine ? 0.3f : 0;
+      options.winner.peak_width = 1;
+      options.winner.widest_peak = 3;
       options.score.bandwidth = 0.1f;
       options.score.gradient_bandwidth = 0.05f;
       ParityBench<TypeParam> bench(size, options);

@@ -127,6 +127,35 @@ TEST(RobustScore, AnOccluderDoesNotScoreByItsGradient) {
   EXPECT_NEAR(reference::robust_kernel(other, own, score), 1 - score.gradient_share, kRounding);
 }
 
+TEST(RobustScore, SteepTextureMayBeResampledDifferently) {
+  ScoreOptions score = auto_options().score;
+  score.colour_slack = 1;
+  score.gradient_slack = 0.5f;
+  reference::Sample flat{0.5f, 0.5f, 0.5f, 0, 0}, steep{0.5f, 0.5f, 0.5f, 0.03f, 0.04f};
+  reference::Sample beside_flat = flat, beside_steep = steep;
+  beside_flat[0] += score.bandwidth;
+  beside_steep[0] += score.bandwidth + 0.05f;
+  EXPECT_NEAR(reference::robust_kernel(beside_steep, steep, score),
+              reference::robust_kernel(beside_flat, flat, score), 1e-5);
+  beside_steep = steep;
+  beside_steep[3] += score.gradient_bandwidth + 0.025f;
+  EXPECT_NEAR(reference::robust_kernel(beside_steep, steep, score), 1 - score.gradient_share,
+              kRounding);
+}
+
+TEST(RobustScore, WhatNoOtherViewSeesSaysAsMuchAsIsAsked) {
+  const auto views = row_of_views(2);
+  const Band band = flat_band(views, 21, 3);
+  const EpiSampler sampler(views);
+  ScoreOptions score = auto_options().score;
+  score.unseen = 0.1f;
+  const auto members = score_members(sampler, 0, ScoreViews::kAll, {-1, 4, 3});
+  const double outside = sampler.locate(0, 1, Ray{1, 1, 4})->u < 0 ? 4 : -4;
+  EXPECT_NEAR(reference::robust_score(band, sampler, 0, Ray{1, 1, outside}, band.pixel(0, 1, 1),
+                                      score, members, 1),
+              0.1, kRounding);
+}
+
 TEST(RobustScore, WhatNoOtherViewSeesIsNeitherLikelyNorUnlikely) {
   const auto views = row_of_views(2);
   const Band band = flat_band(views, 21, 3);
@@ -139,7 +168,7 @@ TEST(RobustScore, WhatNoOtherViewSeesIsNeitherLikelyNorUnlikely) {
   };
   EXPECT_NEAR(at(0), 1, kRounding) << "the other view agrees";
   const double outside = sampler.locate(0, 1, Ray{1, 1, 4})->u < 0 ? 4 : -4;
-  EXPECT_NEAR(at(outside), UNSEEN_SCORE, kRounding);
+  EXPECT_NEAR(at(outside), score.unseen, kRounding);
 }
 
 /// A strip of one row; every pixel scores `most` at its hypothesis and `other` elsewhere.

@@ -184,7 +184,12 @@ struct WinnerRow {
     bounds.row(0)[0] = {0, 10};
   }
   float find(bool refine) {
-    reference::winner({0, 1}, scores, scores, 0, hypotheses, refine, todo, bounds, disparity,
+    WinnerOptions options;
+    options.refine = refine;
+    return find(options);
+  }
+  float find(const WinnerOptions& options) {
+    reference::winner({0, 1}, scores, scores, 0, hypotheses, options, todo, bounds, disparity,
                       contrast);
     return disparity.row(0)[0];
   }
@@ -194,6 +199,22 @@ TEST(ReferenceWinner, TakesTheBestAndComparesWithTheMean) {
   WinnerRow row({0, 0, 0.5f, 0, 0, 0, 0, 0.6f, 0, 0, 0});
   EXPECT_NEAR(row.find(false), 1.7, kRounding);
   EXPECT_NEAR(row.contrast.row(0)[0], 0.6 - 1.1 / 11, kRounding);
+}
+
+TEST(ReferenceWinner, AWidePeakCountsLessAndAVeryWideOneNothing) {
+  WinnerOptions options;
+  options.peak_share = 0.3f;
+  options.peak_width = 2;
+  options.widest_peak = 4;
+  WinnerRow narrow({0, 0, 0, 0.8f, 0.9f, 0, 0, 0, 0, 0, 0});
+  narrow.find(options);
+  EXPECT_NEAR(narrow.contrast.row(0)[0], 0.9 - 1.7 / 11, kRounding);
+  WinnerRow wide({0, 0, 0, 0.8f, 0.9f, 0.8f, 0.8f, 0, 0, 0, 0});
+  EXPECT_NEAR(wide.find(options), 1.4, kRounding);
+  EXPECT_NEAR(wide.contrast.row(0)[0], (0.9 - 3.3 / 11) * 2 / 4, kRounding);
+  WinnerRow plateau({0, 0, 0, 0.8f, 0.9f, 0.8f, 0.8f, 0.8f, 0, 0, 0});
+  plateau.find(options);
+  EXPECT_EQ(plateau.contrast.row(0)[0], 0);
 }
 
 TEST(ReferenceWinner, OfEqualScoresTheFartherWins) {

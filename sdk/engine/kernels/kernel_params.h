@@ -21,10 +21,6 @@ namespace gigaray {
 #define TAIL_SHARE 0.3f
 #define TAIL_WIDTH 3.0f
 
-/// What a view that can't see a point is taken to say, where fewer see it than count at least: a
-/// hypothesis that nobody can test is neither likely nor unlikely.
-#define UNSEEN_SCORE 0.5f
-
 /// Sides of jumps, see jump_sides.cl. What is within the squared distance SIDE_WINDOW2 of a pixel,
 /// SIDE_WINDOW rows, tells whether there is a jump; what is within SIDE_COLOURS which colours the
 /// sides have, where each shows SIDE_LEAST_COLOURS. The kernel is SIDE_WIDER than that of scores;

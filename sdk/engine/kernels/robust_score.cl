@@ -8,6 +8,9 @@
 //   members [view] bit 0: the view counts; HALF_PLANES 1: bit i: it lies in half-plane i of the camera
 //           positions (view_sets.h)
 //   own     the reference view: view own_view of a band with parameters own_p
+//   unseen  what a view is taken to say that is missing to floor_views
+//   colour_slack, gradient_slack  with SLACK 1: the bandwidths grow by so many times the length of the
+//           reference pixel's gradient
 //   others as for density_score
 // HALF_PLANES 1: the largest of the averages over the 8 half-planes; a point beside a silhouette is
 // hidden from one side only.
@@ -28,6 +31,9 @@
 #endif
 #ifndef HALF_PLANES
 #define HALF_PLANES 0
+#endif
+#ifndef SLACK
+#define SLACK 0
 #endif
 #if HALF_PLANES
 #define PARTS 8
@@ -54,17 +60,26 @@ static inline vfloat tailed_kernel(vfloat distance) {
          TAIL_SHARE * max(1.0f - (1.0f / TAIL_WIDTH) * distance, (vfloat)(0.0f));
 }
 
-// Mean kernel of the views that see a point. Views that are missing to floor_views say UNSEEN_SCORE; of
-// a half-plane nothing.
-static inline vfloat mean_kernel(vfloat sum, vfloat count, int min_views, float floor_views) {
-  const float unseen = HALF_PLANES ? 0.0f : UNSEEN_SCORE;
+// Mean kernel of the views that see a point. Views that are missing to floor_views say `unseen`; of a
+// half-plane nothing.
+static inline vfloat mean_kernel(vfloat sum, vfloat count, int min_views, float floor_views, float unseen) {
+  if (HALF_PLANES) unseen = 0.0f;
   return score_of(sum + unseen * max(floor_views - count, (vfloat)(0.0f)), count, min_views,
                   floor_views);
 }
 
+#define INLINE static inline __attribute__((always_inline))
+
+#if SLACK
+// Length of the reference's gradient at LANES pixels; own: channel 0.
+INLINE vfloat steepness(__global const float* own, int stride) {
+  const vfloat gx = VLOAD(own + 3 * stride), gy = VLOAD(own + 4 * stride);
+  return sqrt(gx * gx + gy * gy);
+}
+#endif
+
 #if SHIFT_ALIKE
 
-#define INLINE static inline __attribute__((always_inline))
 // Vectors beside a block that hold the columns of the last taps.
 #define TAP_VECTORS ((3 + LANES - 1) / LANES)
 
@@ -168,6 +183,7 @@ INLINE vfloat distance2(const BlockView* view, __global const float* own, int st
 }
 
 typedef struct {
+  float bandwidth, gradient_bandwidth, colour_slack, gradient_slack;
   float inverse_h, inverse_g, gradient_share;
 } Kernels;
 
@@ -195,7 +211,12 @@ INLINE void add_run(const BlockView* view, const Run run, __global const float* 
   for (int j = first; j <= last; ++j) {
     const vfloat squared =
         distance2(view, own, stride, 0, 3, j, between_rows, between_columns, window);
-    colour[UNIT(j)] = tailed_kernel(sqrt(squared) * kernels.inverse_h);
+#if SLACK
+    const vfloat inverse_h = 1.0f / (kernels.bandwidth + kernels.colour_slack * steepness(own + j * LANES, stride));
+#else
+    const float inverse_h = kernels.inverse_h;
+#endif
+    colour[UNIT(j)] = tailed_kernel(sqrt(squared) * inverse_h);
     if (!view->whole) {
       const vint column = view->x + j * LANES + VLANES;
       vfloat inside =
@@ -219,7 +240,13 @@ INLINE void add_run(const BlockView* view, const Run run, __global const float* 
   for (int j = first; j <= last; ++j) {
     const vfloat squared =
         distance2(view, own, stride, 3, CHANNELS - 3, j, between_rows, between_columns, window);
-    const vfloat gradient = max(1.0f - sqrt(squared) * kernels.inverse_g, (vfloat)(0.0f));
+#if SLACK
+    const vfloat inverse_g =
+        1.0f / (kernels.gradient_bandwidth + kernels.gradient_slack * steepness(own + j * LANES, stride));
+#else
+    const float inverse_g = kernels.inverse_g;
+#endif
+    const vfloat gradient = max(1.0f - sqrt(squared) * inverse_g, (vfloat)(0.0f));
     const vfloat kernel_value = (1.0f - share) * colour[UNIT(j)] +
                                 share * gradient * min(4.0f * colour[UNIT(j)], (vfloat)(1.0f));
     UNROLL
@@ -235,6 +262,7 @@ __kernel void robust_score(__global const float* band, const BandParams p, const
                            __global const ushort2* bounds, __global const uchar* members,
                            const float bandwidth, const float gradient_bandwidth,
                            const float gradient_share, const int min_views, const float floor_views,
+                           const float unseen, const float colour_slack, const float gradient_slack,
                            __global float* scores, const int scores_begin) {
   const int u = get_global_id(0) * UNITS * LANES, row = get_global_id(1);
   if (u >= strip.width) return;
@@ -259,7 +287,8 @@ __kernel void robust_score(__global const float* band, const BandParams p, const
   if (last < 0) return;
 
   __global const float* own = band_row(own_band, own_p, own_view, v) + u;
-  const Kernels kernels = {1.0f / bandwidth, 1.0f / gradient_bandwidth, gradient_share};
+  const Kernels kernels = {bandwidth, gradient_bandwidth, colour_slack, gradient_slack,
+                           1.0f / bandwidth, 1.0f / gradient_bandwidth, gradient_share};
   for (int begin = first; begin <= last; begin += TILE) {
     const int tile = min(TILE, last - begin + 1);
     BlockSums blocks[TILE];
@@ -302,7 +331,7 @@ __kernel void robust_score(__global const float* band, const BandParams p, const
           for (int part = 0; part < PARTS; ++part)
             score = max(score, mean_kernel(block->sums[part][UNIT(j)],
                                            block->whole[part] + block->counts[part][UNIT(j)],
-                                           min_views, floor_views));
+                                           min_views, floor_views, unseen));
           store_scores(scores + score_index(strip, hypotheses, v - scores_begin, u + j * LANES), hypotheses,
                        &tested[UNIT(j)], begin + i, score);
         }
@@ -322,6 +351,7 @@ __kernel void robust_score(__global const float* taps, const BandParams p, const
                            __global const ushort2* bounds, __global const uchar* members,
                            const float bandwidth, const float gradient_bandwidth,
                            const float gradient_share, const int min_views, const float floor_views,
+                           const float unseen, const float colour_slack, const float gradient_slack,
                            __global float* scores, const int scores_begin) {
   const int row = get_global_id(1), v = strip.row_begin + row;
   for (int j = 0; j < UNITS; ++j) {
@@ -335,7 +365,14 @@ __kernel void robust_score(__global const float* taps, const BandParams p, const
     __global const float* here = band_row(own_band, own_p, own_view, v) + u;
     UNROLL
     for (int c = 0; c < CHANNELS; ++c) own[c] = VLOAD(here + c * p.stride);
-    const float inverse_h = 1.0f / bandwidth;
+#if SLACK
+    const vfloat steep = steepness(here, p.stride);
+    const vfloat inverse_h = 1.0f / (bandwidth + colour_slack * steep);
+    const vfloat inverse_g = 1.0f / (gradient_bandwidth + gradient_slack * steep);
+#else
+    const float inverse_h = 1.0f / bandwidth, inverse_g = 1.0f / gradient_bandwidth;
+    (void)inverse_g;  // with three channels
+#endif
     __global float* column = scores + score_index(strip, hypotheses, v - scores_begin, u);
     for (int i = block.x; i <= block.y; ++i) {
       const float h = hypotheses.min + i * hypotheses.step;
@@ -360,16 +397,16 @@ __kernel void robust_score(__global const float* taps, const BandParams p, const
 #if CHANNELS > 3
         const vfloat gx = sample[3] * at.x_u + sample[4] * at.y_u - own[3];
         const vfloat gy = sample[3] * at.x_v + sample[4] * at.y_v - own[4];
-        const vfloat gradient = max(1.0f - sqrt(gx * gx + gy * gy) / gradient_bandwidth, (vfloat)(0.0f));
+        const vfloat gradient = max(1.0f - sqrt(gx * gx + gy * gy) * inverse_g, (vfloat)(0.0f));
         kernel_value += gradient_share * gradient * min(4.0f * colour, (vfloat)(1.0f));
 #endif
         UNROLL
         for (int part = 0; part < PARTS; ++part)
           if (PARTS == 1 || members[k] >> part & 1) sums[part] += kernel_value;
       }
-      vfloat score = mean_kernel(sums[0], counts[0], min_views, floor_views);
+      vfloat score = mean_kernel(sums[0], counts[0], min_views, floor_views, unseen);
       for (int part = 1; part < PARTS; ++part)
-        score = max(score, mean_kernel(sums[part], counts[part], min_views, floor_views));
+        score = max(score, mean_kernel(sums[part], counts[part], min_views, floor_views, unseen));
       store_scores(column, hypotheses, &tested, i, score);
     }
     repeat_ends_of_lanes(column, hypotheses, &tested);

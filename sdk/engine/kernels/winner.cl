@@ -10,6 +10,11 @@
 //   contrast   [row][pitch], best score minus mean score
 // One work-item per pixel; lanes are hypotheses. Of equal scores the smallest hypothesis wins.
 
+//   peak_share, peak_width, widest_peak  see WinnerOptions; with PEAK 1
+
+#ifndef PEAK
+#define PEAK 0  // 1: contrast counts less where the peak is wide
+#endif
 #ifndef REFINE
 #define REFINE 0  // 1: vertex of the parabola through the winner and its neighbours
 #endif
@@ -17,7 +22,8 @@
 __kernel void winner(const StripParams strip, const HypothesisParams hypotheses,
                      __global const uchar* todo, __global const ushort2* bounds,
                      __global const float* chosen_by, __global const float* scores,
-                     const int scores_begin, const int search, __global float* disparity,
+                     const int scores_begin, const int search, const float peak_share,
+                     const int peak_width, const int widest_peak, __global float* disparity,
                      __global float* contrast) {
   const int u = get_global_id(0), row = get_global_id(1);
   if (u >= strip.width) return;
@@ -62,7 +68,19 @@ __kernel void winner(const StripParams strip, const HypothesisParams hypotheses,
   const int chosen = winner;
   for (int i = max(chosen - search, first); i <= min(chosen + search, last); ++i)
     if (score[i] > score[winner]) winner = i;
-  contrast[pixel] = score[winner] - sum_of_lanes(sum) / sum_of_lanes(tested);
+  const float lead = score[winner] - sum_of_lanes(sum) / sum_of_lanes(tested);
+  contrast[pixel] = lead;
+#if PEAK
+  const float bar = score[winner] - peak_share * lead;
+  vfloat wide = (vfloat)(0.0f);
+  for (int i = lanes_floor(first); i <= last; i += LANES) {
+    const vint index = i + VLANES;
+    const vint counts = VTRUE(index >= first && index <= last && VLOAD(score + i) >= bar);
+    wide += VSELECT((vfloat)(0.0f), (vfloat)(1.0f), counts);
+  }
+  const float width = sum_of_lanes(wide);
+  contrast[pixel] = width > (float)widest_peak ? 0.0f : lead * min((float)peak_width / width, 1.0f);
+#endif
   float h = hypotheses.min + winner * hypotheses.step;
 #if REFINE
   if (winner > first && winner < last) {

@@ -90,7 +90,8 @@ void DeviceWorkspace::robust_score(int ref, RowRange rows, const Map<std::uint8_
   kernel.kernel.set_args(samples(), band_, strip(ref, rows), own.buffer, own.band, own.view,
                          ways(ref), hypotheses_, buffer_of(todo), buffer_of(bounds), members.buffer,
                          score.bandwidth, score.gradient_bandwidth, score.gradient_share,
-                         least_views(members.used), floor_views, scores, raw_->rows.begin);
+                         least_views(members.used), floor_views, score.unseen, score.colour_slack,
+                         score.gradient_slack, scores, raw_->rows.begin);
   kernel.run(band_.width, rows.size());
 }
 
@@ -161,8 +162,10 @@ void DeviceWorkspace::winner(RowRange rows, const Map<std::uint8_t>& todo,
   GIGARAY_CHECK(rows.begin >= score_rows_.begin && rows.end <= score_rows_.end);
   LaneKernel& kernel = lane_kernel("winner", winner_defines());
   const int search = chosen_by_ == winner_scores_ ? 0 : kScanlineSearch;
+  const WinnerOptions& options = setup_.options.winner;
   kernel.kernel.set_args(strip(rows), hypotheses_, buffer_of(todo), buffer_of(bounds),
                          chosen_by_->buffer, winner_scores_->buffer, score_rows_.begin, search,
+                         options.peak_share, options.peak_width, options.widest_peak,
                          buffer_of(disparity), buffer_of(contrast));
   kernel.run_pixels(band_.width, rows.size());
 }

@@ -297,8 +297,9 @@ std::string DeviceWorkspace::density_defines() const {
 }
 
 std::string DeviceWorkspace::robust_defines(bool half_planes) const {
-  return define("CUBIC", setup_.options.score.cubic) + define("HALF_PLANES", half_planes) +
-         masked_define();
+  const ScoreOptions& score = setup_.options.score;
+  return define("CUBIC", score.cubic) + define("HALF_PLANES", half_planes) +
+         define("SLACK", score.colour_slack > 0 || score.gradient_slack > 0) + masked_define();
 }
 
 std::string DeviceWorkspace::edge_defines() const {
@@ -316,7 +317,8 @@ std::string DeviceWorkspace::sides_defines() const {
 }
 
 std::string DeviceWorkspace::winner_defines() const {
-  return define("REFINE", setup_.options.winner.refine);
+  const WinnerOptions& options = setup_.options.winner;
+  return define("REFINE", options.refine) + define("PEAK", options.peak_share > 0);
 }
 
 std::string DeviceWorkspace::median_defines(int radius, bool bilateral) {

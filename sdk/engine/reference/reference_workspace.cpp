@@ -350,7 +350,7 @@ class ReferenceWorkspace : public Workspace {
               const Map<float>& disparity, const Map<float>& contrast) override {
     reference::winner(rows, *chosen_by_, *winner_scores_,
                       chosen_by_ == winner_scores_ ? 0 : kScanlineSearch, setup_.hypotheses,
-                      setup_.options.winner.refine, view(todo), view(bounds), view(disparity),
+                      setup_.options.winner, view(todo), view(bounds), view(disparity),
                       view(contrast));
   }
   void score_of_estimate(RowRange rows, const Map<std::uint8_t>& todo, const Map<float>& disparity,

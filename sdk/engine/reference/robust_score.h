@@ -35,9 +35,9 @@ Sample seen_from(const S& sampler, int ref, int other, const Ray& ray, Sample sa
 }
 
 /// Score of a ray with colours `own` under one hypothesis: the mean of the kernels over the views;
-/// those that are missing to ScoreOptions::floor_views say UNSEEN_SCORE. -1 when too few see it.
-/// parts 1: over the views with bit 0 of their `members`. parts 8: the best of the means over
-/// half-plane i, the views with bit i.
+/// those that are missing to ScoreOptions::floor_views say ScoreOptions::unseen. -1 when too few
+/// see it. parts 1: over the views with bit 0 of their `members`. parts 8: the best of the means
+/// over half-plane i, the views with bit i.
 template <RaySampler S>
 float robust_score(const Band& band, const S& sampler, int ref, const Ray& ray, const Sample& own,
                    const ScoreOptions& options, std::span<const std::uint8_t> members, int parts) {
@@ -46,7 +46,7 @@ float robust_score(const Band& band, const S& sampler, int ref, const Ray& ray, 
   const float least = std::ceil(options.min_views * float(used));
   const float share = parts == 1 ? options.floor_views : kLeastHalfPlane;
   const float floor_views = std::max(share * float(used), kLeastFloor);
-  const float unseen = parts == 1 ? UNSEEN_SCORE : 0;
+  const float unseen = parts == 1 ? options.unseen : 0;
   std::array<float, kHalfPlanes> sums{}, counts{};
   for (int other = 0; other < sampler.num_views(); ++other) {
     if (members[other] == 0) continue;

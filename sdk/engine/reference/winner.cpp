@@ -5,9 +5,9 @@
 namespace gigaray::reference {
 
 void winner(RowRange rows, const Scores& chosen_by, const Scores& scores, int search,
-            const HypothesisRange& hypotheses, bool refine, MapView<const std::uint8_t> todo,
-            MapView<const HypothesisBounds> bounds, MapView<float> disparity,
-            MapView<float> contrast) {
+            const HypothesisRange& hypotheses, const WinnerOptions& options,
+            MapView<const std::uint8_t> todo, MapView<const HypothesisBounds> bounds,
+            MapView<float> disparity, MapView<float> contrast) {
   for (int v = rows.begin; v < rows.end; ++v) {
     for (int u = 0; u < scores.width; ++u) {
       disparity.row(v)[u] = kNoEstimate;
@@ -29,9 +29,18 @@ void winner(RowRange rows, const Scores& chosen_by, const Scores& scores, int se
            ++i)
         if (scores.at(u, v, i) > scores.at(u, v, best)) best = i;
       const float peak = scores.at(u, v, best);
-      contrast.row(v)[u] = peak - sum / tested;
+      const float lead = peak - sum / tested;
+      contrast.row(v)[u] = lead;
+      if (options.peak_share > 0) {
+        int width = 0;
+        for (int i = first; i <= last; ++i)
+          width += scores.at(u, v, i) >= peak - options.peak_share * lead;
+        contrast.row(v)[u] = width > options.widest_peak
+                                 ? 0
+                                 : lead * std::min(float(options.peak_width) / width, 1.0f);
+      }
       float h = float(hypotheses.min) + best * float(hypotheses.step());
-      if (refine && best > first && best < last) {
+      if (options.refine && best > first && best < last) {
         const float before = scores.at(u, v, best - 1), after = scores.at(u, v, best + 1);
         const float curve = before - 2 * peak + after;
         if (before >= 0 && after >= 0 && curve < 0)

@@ -48,6 +48,9 @@ void DepthOptions::check() const {
   in_range("score.mean_shift_iterations", score.mean_shift_iterations, 0, 100);
   in_range("score.min_views", score.min_views, 0.0f, 1.0f);
   in_range("score.floor_views", score.floor_views, 0.0f, 1.0f);
+  in_range("score.unseen", score.unseen, 0.0f, 1.0f);
+  in_range("score.colour_slack", score.colour_slack, 0.0f, kLarge);
+  in_range("score.gradient_slack", score.gradient_slack, 0.0f, kLarge);
   in_range("support.radius", support.radius, 0, 8);
   if (score.from_noise && support.radius > 0)
     in_range("support.radius_in_doubt", support.radius_in_doubt, support.radius, 8);
@@ -78,6 +81,9 @@ void DepthOptions::check() const {
   in_range("winner.median_radius", winner.median_radius, 0, 8);
   in_range("winner.median_tolerance", winner.median_tolerance, kTiny, kLarge);
   in_range("winner.min_relief", winner.min_relief, 0.0f, 1.0f);
+  in_range("winner.peak_share", winner.peak_share, 0.0f, 1.0f);
+  in_range("winner.peak_width", winner.peak_width, 1, 4096);
+  in_range("winner.widest_peak", winner.widest_peak, winner.peak_width, 4096);
   in_range("propagation.tolerance", propagation.tolerance, kTiny, kLarge);
   in_range("propagation.finished_lead", propagation.finished_lead, 0.0f, kLarge);
   in_range("propagation.crack_width", propagation.crack_width, 0, 8);
@@ -109,6 +115,7 @@ DepthOptions auto_options() {
   DepthOptions options;
   options.preset = "auto";
   options.edge.threshold = -1;
+  options.unstructured_step = 1;
   options.score.linear_rgb = false;
   options.score.cubic = true;
   options.score.gradient = true;
@@ -136,6 +143,22 @@ DepthOptions auto_options() {
   options.propagation.crack_width = 2;
   options.propagation.final_median_radius = 0;  // its own median has been there
   return options;
+}
+
+void adapt_to_posed_views(double per_pixel, DepthOptions& options) {
+  options.score.cubic = false;
+  // Surfaces come nearer and turn from view to view: what is carried over has wider cracks.
+  constexpr int kCrackWidth = 4;
+  if (options.propagation.crack_width > 0) options.propagation.crack_width = kCrackWidth;
+  if (!options.score.gradient) return;
+  options.score.unseen = 0.1f;
+  options.score.colour_slack = 1;
+  options.score.gradient_slack = 0.5f;
+  options.winner.peak_share = 0.3f;
+  // Window and interpolation make a peak a few pixels wide, and no less than three hypotheses.
+  constexpr double kPeak = 4, kWidestPeak = 12;  // px
+  options.winner.peak_width = std::max(int(std::lround(kPeak * per_pixel)), 3);
+  options.winner.widest_peak = std::max(int(std::lround(kWidestPeak * per_pixel)), 9);
 }
 
 DepthOptions preset_options(const std::string& name) {

@@ -67,21 +67,26 @@ void check_partners(const LightField& light_field, const std::vector<int>& views
     control.message("view " + name + " gets no depth: it " + why.str());
 }
 
-int count_hypotheses(const LightField& light_field, const DepthOptions& options) {
+double usual_travel(const LightField& light_field) {
   const UnstructuredSampler sampler(light_field.cameras, light_field.most_partners);
-  std::vector<double> counts;
+  std::vector<double> medians;
   for (int ref = 0; ref < sampler.num_views(); ++ref) {
     std::vector<double> travels;
     for (const int other : sampler.partners(ref))
       if (other != ref) travels.push_back(sampler.travel(ref, other));
     if (travels.empty()) continue;
     std::nth_element(travels.begin(), travels.begin() + travels.size() / 2, travels.end());
-    counts.push_back(travels[travels.size() / 2] / options.unstructured_step);
+    medians.push_back(travels[travels.size() / 2]);
   }
-  if (counts.empty()) return kLeastHypotheses;
-  const auto most = counts.begin() + long(0.9 * double(counts.size() - 1));
-  std::nth_element(counts.begin(), most, counts.end());
-  return int(std::clamp(std::ceil(*most) + 1, double(kLeastHypotheses), double(kMostHypotheses)));
+  if (medians.empty()) return 0;
+  const auto most = medians.begin() + long(0.9 * double(medians.size() - 1));
+  std::nth_element(medians.begin(), most, medians.end());
+  return *most;
+}
+
+int count_hypotheses(double travel, const DepthOptions& options) {
+  return int(std::clamp(std::ceil(travel / options.unstructured_step) + 1, double(kLeastHypotheses),
+                        double(kMostHypotheses)));
 }
 
 }  // namespace gigaray

@@ -20,8 +20,12 @@ void set_inverse_depths(LightField& light_field, const DepthOptions& options,
 void check_partners(const LightField& light_field, const std::vector<int>& views,
                     const RunControl& control);
 
-/// Hypotheses that every camera's range is sampled by, so that the step of the options is kept in
-/// nine of ten views, as far as the most that are reasonable go.
-int count_hypotheses(const LightField& light_field, const DepthOptions& options);
+/// How far a point goes from the far to the near end of a view's range in the middle one of the
+/// views that it is compared with, level-0 px; nine of ten views have no more.
+double usual_travel(const LightField& light_field);
+
+/// Hypotheses that every camera's range is sampled by, so that the step of the options is kept on
+/// the usual travel, as far as the most that are reasonable go.
+int count_hypotheses(double travel, const DepthOptions& options);
 
 }  // namespace gigaray

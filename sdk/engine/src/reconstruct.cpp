@@ -143,12 +143,10 @@ void prepare_unstructured(Prepared& run, const RunControl& control) {
       run.light_field,
       run.options.views.empty() ? all_views(run.light_field.num_views()) : run.options.views,
       control);
-  run.options.score.cubic = false;
-  // Surfaces come nearer and turn from view to view: what is carried over has wider cracks.
-  constexpr int kCrackWidth = 4;
-  if (run.options.propagation.crack_width > 0) run.options.propagation.crack_width = kCrackWidth;
-  const int count = run.options.hypotheses > 0 ? run.options.hypotheses
-                                               : count_hypotheses(run.light_field, run.options);
+  const double travel = usual_travel(run.light_field);
+  const int count =
+      run.options.hypotheses > 0 ? run.options.hypotheses : count_hypotheses(travel, run.options);
+  adapt_to_posed_views((count - 1) / std::max(travel, 1.0), run.options);
   run.hypotheses = {0, 1, count};
 }
 
@@ -201,7 +199,9 @@ std::string kernel_job(const Prepared& run, const std::string& devices) {
        << o.score.cubic << ' ' << o.score.gradient << ' ' << o.score.ray_mean << ' '
        << o.support.radius << ' ' << o.support.slanted << ' ' << o.support.half_planes << ' '
        << o.support.choose_sides << ' ' << o.support.fill_hidden << ' ' << o.support.scanline << ' '
-       << o.winner.refine << ' ' << o.winner.median_radius << ' ' << o.propagation.fine_to_coarse;
+       << o.winner.refine << ' ' << (o.winner.peak_share > 0) << ' '
+       << (o.score.colour_slack > 0 || o.score.gradient_slack > 0) << ' ' << o.winner.median_radius
+       << ' ' << o.propagation.fine_to_coarse;
   return text.str();
 }
 

@@ -55,6 +55,13 @@ struct ScoreOptions {
   /// share of all views. 0 … 1. With `gradient` only other views count, here and above, and those
   /// that are missing to this share count as undecided.
   float floor_views = 0;
+  /// What a view that is missing to floor_views is taken to say, 0 … 1; used with `gradient`.
+  float unseen = 0.5f;
+  /// Views that stand far apart resample fine texture differently, by more where it is steeper: the
+  /// bandwidth grows by colour_slack (px) times the length of the reference pixel's gradient,
+  /// gradient_bandwidth by gradient_slack times it. ≥ 0; used with `gradient`.
+  float colour_slack = 0;
+  float gradient_slack = 0;
   /// With from_noise: the share where rays alone leave much open (ray_doubt()), 0 … 1.
   float gradient_share_in_doubt = 0.7f;
 };
@@ -107,6 +114,13 @@ struct WinnerOptions {
   /// Where the best score is above the mean by no more than this share of itself, all hypotheses
   /// score alike: such pixels carry no information and get confidence 0. 0 … 1
   float min_relief = 0;
+  /// The peak of a score curve are the hypotheses whose scores fall below the best one by no more
+  /// than this share of the contrast. Where the surroundings look alike it is wide and its top is
+  /// chance: above peak_width hypotheses the contrast counts peak_width / width, above widest_peak
+  /// it is 0. 0 … 1; 0: not asked.
+  float peak_share = 0;
+  int peak_width = 4;    ///< ≥ 1
+  int widest_peak = 12;  ///< ≥ peak_width
 };
 
 /// Propagation and fine-to-coarse.
@@ -166,6 +180,12 @@ DepthOptions paper_options();
 
 /// The default: robust kernels of colour and gradient, bilateral support, sub-hypothesis winner.
 DepthOptions auto_options();
+
+/// What differs between posed photographs and views on a line or in a grid, for presets with
+/// ScoreOptions::gradient: they stand farther apart, so that each sees a smaller part of what the
+/// others see, in another perspective. reconstruct() applies it. per_pixel: hypotheses for every px
+/// that a point goes.
+void adapt_to_posed_views(double per_pixel, DepthOptions& options);
 
 /// By name, "paper" or "auto". Throws Error(kInvalidArgument).
 DepthOptions preset_options(const std::string& name);
