@@ -12,17 +12,28 @@ namespace gigaray {
 namespace {
 
 TEST(Calibration, RisesFromLittleToCertainty) {
-  EXPECT_FLOAT_EQ(calibrated_confidence(0), 0.2f);
-  EXPECT_FLOAT_EQ(calibrated_confidence(-1), 0.2f);
-  EXPECT_FLOAT_EQ(calibrated_confidence(1), 1);
-  EXPECT_FLOAT_EQ(calibrated_confidence(7), 1);
-  EXPECT_FLOAT_EQ(calibrated_confidence(0.3f), 0.9625f);
-  EXPECT_TRUE(std::isnan(calibrated_confidence(kNoEstimate)));
-  float last = 0;
-  for (int i = 0; i <= 1000; ++i) {
-    const float next = calibrated_confidence(float(i) / 1000);
-    EXPECT_GT(next, last);
-    last = next;
+  const auto parallel = [](float contrast) {
+    return calibrated_confidence(contrast, LightFieldKind::k3D);
+  };
+  const auto posed = [](float contrast) {
+    return calibrated_confidence(contrast, LightFieldKind::kUnstructured);
+  };
+  EXPECT_FLOAT_EQ(parallel(0), 0.2f);
+  EXPECT_FLOAT_EQ(parallel(-1), 0.2f);
+  EXPECT_FLOAT_EQ(parallel(1), 1);
+  EXPECT_FLOAT_EQ(parallel(7), 1);
+  EXPECT_FLOAT_EQ(parallel(0.3f), 0.9625f);
+  EXPECT_FLOAT_EQ(posed(0), 0.02f) << "a plateau of any height";
+  EXPECT_FLOAT_EQ(posed(0.3f), 0.94f);
+  EXPECT_FLOAT_EQ(posed(1), 1);
+  for (const LightFieldKind kind : {LightFieldKind::k4D, LightFieldKind::kUnstructured}) {
+    EXPECT_TRUE(std::isnan(calibrated_confidence(kNoEstimate, kind)));
+    float last = 0;
+    for (int i = 0; i <= 1000; ++i) {
+      const float next = calibrated_confidence(float(i) / 1000, kind);
+      EXPECT_GT(next, last);
+      last = next;
+    }
   }
 }
 

@@ -78,7 +78,8 @@ ViewDepth Reconstruction::view(int view_idx) const {
     impl_->maps.read(active, v, depth.disparity.row(v), depth.confidence.row(v),
                      depth.level.row(v));
   if (impl_->options.winner.calibrated)
-    for (float& confidence : depth.confidence) confidence = calibrated_confidence(confidence);
+    for (float& confidence : depth.confidence)
+      confidence = calibrated_confidence(confidence, impl_->light_field.kind);
   for (float& value : depth.disparity) value = impl_->disparity_of(view_idx, value);
   const int radius = impl_->options.propagation.final_median_radius;
   if (radius > 0) take_median(radius, depth.disparity);

@@ -2,12 +2,14 @@
 // Copyright (c) 2026 The Gigaray authors
 #pragma once
 
+#include "gigaray/light_field.h"
+
 namespace gigaray {
 
-/// Share of pixels within 0.07 px of the truth among those whose best score exceeds the mean score
-/// by `contrast`, 0 … 1: what confidence means in `auto`. Rises with the contrast; pooled over
-/// rendered and synthetic scenes, clean and noisy (docs/accuracy.md has the table per scene). NaN
-/// stays NaN.
-float calibrated_confidence(float contrast);
+/// Share of right pixels among those whose best score exceeds the mean score by `contrast`, 0 … 1:
+/// what confidence means in `auto`. Right is within 0.07 px of the truth, of posed photographs
+/// within 1 % of the depth. Rises with the contrast; pooled over rendered and synthetic scenes,
+/// clean and noisy (docs/accuracy.md has the tables per scene). NaN stays NaN.
+float calibrated_confidence(float contrast, LightFieldKind kind);
 
 }  // namespace gigaray
