@@ -120,6 +120,7 @@ DepthOptions auto_options() {
   options.score.cubic = true;
   options.score.gradient = true;
   options.score.remove_jpeg_blocks = true;
+  options.score.even_exposures = true;
   options.score.from_noise = true;
   options.score.gradient_share_in_doubt = 0.9f;
   options.score.ray_mean = true;

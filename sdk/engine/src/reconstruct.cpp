@@ -11,6 +11,7 @@
 #include "few_views.h"
 #include "gigaray/device.h"
 #include "gigaray/estimator.h"
+#include "gigaray/exposures.h"
 #include "gigaray/jpeg_blocks.h"
 #include "gigaray/kept_pictures.h"
 #include "gigaray/scene_estimates.h"
@@ -178,9 +179,28 @@ DepthOptions widest(DepthOptions options) {
   return options;
 }
 
+/// Takes out the exposures of posed photographs where they differ.
+void even_exposures(Prepared& run, const RunControl& control) {
+  const std::vector<Exposure> exposures = estimate_exposures(run.light_field, control);
+  if (!differ(exposures)) return;
+  float least = 0, most = 0;
+  for (const Exposure& exposure : exposures) {
+    least = std::min(least, *std::min_element(exposure.begin(), exposure.end()));
+    most = std::max(most, *std::max_element(exposure.begin(), exposure.end()));
+  }
+  std::ostringstream text;
+  text.precision(2);
+  text << "exposures differ, from " << std::exp(least) << " to " << std::exp(most)
+       << " of the mean: evened out before pictures are compared";
+  control.message(text.str());
+  run.light_field = evened(run.light_field, exposures);
+}
+
 /// Fills in what the pictures decide. The plan of the memory comes before: it holds for all
 /// pictures, so that the forecast, which looks at none, and the run say the same.
 void adapt_to_pictures(Prepared& run, const RunControl& control) {
+  if (run.options.score.even_exposures && run.light_field.kind == LightFieldKind::kUnstructured)
+    even_exposures(run, control);
   if (run.options.score.from_noise) {
     adapt_to_noise(run, control);
     if (most_others(run.light_field) <= kMostFewViews)

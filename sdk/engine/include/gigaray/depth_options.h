@@ -38,6 +38,8 @@ struct ScoreOptions {
   float gradient_share = 0.7f;        ///< Share of the gradient in the kernel, 0 … 1
   /// Pictures that show the rounding of JPEG are cleaned of its blocks first (jpeg_blocks.h).
   bool remove_jpeg_blocks = false;
+  /// Of posed photographs: gains that the pictures differ by are taken out first (exposures.h).
+  bool even_exposures = false;
   float smoothing = 0;  ///< Gaussian that the pictures are smoothed by first, px; 0: none. 0 … 3
   /// Derive smoothing, both bandwidths, their shares and the support from the noise of the pictures
   /// and the number of views, and leave out ray_mean where they are clean. Where views are few,

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Gigaray authors
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "gigaray/light_field.h"
+#include "gigaray/run_control.h"
+
+namespace gigaray {
+
+/// How much brighter a picture is than the others show the same: ln of the encoded value, by R, G,
+/// B. Encoded by a power a gain in linear light is one here too.
+using Exposure = std::array<float, 3>;
+
+/// Exposures of posed photographs from windows of small versions that correlate between each view
+/// and those that stand next to it (normalised cross-correlation does not see a gain), with a mean
+/// of 0 over all views. A view that matches no other has 0. Cameras have their ranges of inverse
+/// depth. Reads every picture once. Throws Error(kCancelled) and what reading pictures throws.
+std::vector<Exposure> estimate_exposures(const LightField& light_field, const RunControl& control);
+
+/// Do they differ by more than their estimates scatter, so that comparing pixels needs to know?
+bool differ(const std::vector<Exposure>& exposures);
+
+/// The same light field with the exposures taken out as a view is read. What is clipped, within a
+/// fiftieth of the full range, stays as it is: nobody knows how bright it was.
+LightField evened(LightField light_field, std::vector<Exposure> exposures);
+
+}  // namespace gigaray
