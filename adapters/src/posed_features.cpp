@@ -36,15 +36,17 @@ float squared_distance(const float* a, const float* b) {
   return std::accumulate(std::begin(sums), std::end(sums), 0.0F);
 }
 
-/// Features of b that look like one of a and lie where the poses let its point be.
+/// Features of b that look like one of a and lie where the poses let its point be, or so many px
+/// beside it.
 std::vector<Candidate> candidates_on_lines(const PosedPair& pair, const ViewFeatures& a,
-                                           const ViewFeatures& b, double tolerance) {
+                                           const ViewFeatures& b, double tolerance, double beside) {
   constexpr float kAlike = 300;  // of 512, the length of a descriptor
   std::vector<Candidate> candidates;
   for (int i = 0; i < int(a.places.size()); ++i) {
     const Eigen::Vector3f line = pair.epipolar_line(a.places[i]).cast<float>();
+    const cv::Point2f aside = float(beside) * cv::Point2f(line.x(), line.y());
     for (int j = 0; j < int(b.places.size()); ++j) {
-      const cv::Point2f& place = b.places[j];
+      const cv::Point2f place = b.places[j] - aside;
       if (std::abs(line.x() * place.x + line.y() * place.y + line.z()) > float(tolerance)) continue;
       const float distance =
           squared_distance(a.descriptors.ptr<float>(i), b.descriptors.ptr<float>(j));
@@ -83,6 +85,21 @@ std::vector<int> clearly_best(const std::vector<Candidate>& candidates, int Cand
   for (std::size_t i = 0; i < count; ++i)
     if (!is_clear[i]) best[i] = -1;
   return best;
+}
+
+std::vector<std::pair<int, int>> mutual_matches(const PosedPair& pair, const ViewFeatures& a,
+                                                const ViewFeatures& b, double tolerance,
+                                                double beside) {
+  const std::vector<Candidate> candidates = candidates_on_lines(pair, a, b, tolerance, beside);
+  const std::vector<int> forth =
+      clearly_best(candidates, &Candidate::a, &Candidate::b, a.places.size(), b.places, tolerance);
+  const std::vector<int> back =
+      clearly_best(candidates, &Candidate::b, &Candidate::a, b.places.size(), a.places, tolerance);
+  std::vector<std::pair<int, int>> matches;
+  for (const int i : forth)
+    if (i >= 0 && back[candidates[i].b] == i)
+      matches.emplace_back(candidates[i].a, candidates[i].b);
+  return matches;
 }
 
 }  // namespace
@@ -125,16 +142,12 @@ Eigen::Vector3d PosedPair::epipolar_line(const cv::Point2f& pixel) const {
 std::vector<std::pair<int, int>> matches_on_lines(const Camera& camera_a, const ViewFeatures& a,
                                                   const Camera& camera_b, const ViewFeatures& b,
                                                   double tolerance) {
-  const std::vector<Candidate> candidates =
-      candidates_on_lines(PosedPair(camera_a, camera_b), a, b, tolerance);
-  const std::vector<int> forth =
-      clearly_best(candidates, &Candidate::a, &Candidate::b, a.places.size(), b.places, tolerance);
-  const std::vector<int> back =
-      clearly_best(candidates, &Candidate::b, &Candidate::a, b.places.size(), a.places, tolerance);
-  std::vector<std::pair<int, int>> matches;
-  for (const int i : forth)
-    if (i >= 0 && back[candidates[i].b] == i)
-      matches.emplace_back(candidates[i].a, candidates[i].b);
+  constexpr double kBeside = 8;  // tolerances
+  constexpr std::size_t kTimesChance = 3;
+  const PosedPair pair(camera_a, camera_b);
+  std::vector<std::pair<int, int>> matches = mutual_matches(pair, a, b, tolerance, 0);
+  const auto by_chance = mutual_matches(pair, a, b, tolerance, kBeside * tolerance).size();
+  if (matches.size() < kTimesChance * by_chance) matches.clear();
   return matches;
 }
 

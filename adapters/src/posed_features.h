@@ -33,7 +33,8 @@ class PosedPair {
 };
 
 /// Indices of features of a and b that resemble each other most of those on their epipolar lines,
-/// before both cameras, clearly more than the second, and both ways. tolerance: px of the view.
+/// before both cameras, clearly more than the second, and both ways. Empty when there are hardly
+/// more of them than beside the lines, where chance alone finds some. tolerance: px of the view.
 std::vector<std::pair<int, int>> matches_on_lines(const Camera& camera_a, const ViewFeatures& a,
                                                   const Camera& camera_b, const ViewFeatures& b,
                                                   double tolerance);
