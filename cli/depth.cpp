@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -262,6 +263,20 @@ void run(const Settings& settings, const RunControl& control) {
   if (const std::string note = note_on_scale(light_field); !note.empty()) control.message(note);
 }
 
+/// How closely COLMAP looks at photographs.
+void add_quality_option(CLI::App& app, ColmapQuality& quality) {
+  const std::map<std::string, ColmapQuality> qualities{{"low", ColmapQuality::kLow},
+                                                       {"medium", ColmapQuality::kMedium},
+                                                       {"high", ColmapQuality::kHigh}};
+  app.add_option_function<std::string>(
+         "--quality",
+         [&quality, qualities](const std::string& name) { quality = qualities.at(name); },
+         "How closely COLMAP looks at photographs for their cameras: low (1000 px, 2048 features), "
+         "medium (1600 px, 4096) or high (3200 px, 8192); default: medium")
+      ->check(one_of({"low", "medium", "high"}))
+      ->option_text("low|medium|high");
+}
+
 }  // namespace
 
 Run depth_command(CLI::App& app) {
@@ -272,6 +287,7 @@ Run depth_command(CLI::App& app) {
   app.add_flag("--find-cameras", settings->run.input.find_cameras,
                "Find the cameras of a folder of pictures with COLMAP even if they look like a row "
                "(default: when they don't)");
+  add_quality_option(app, settings->run.input.quality);
   settings->output.add_to(app, "Folder for the result")->required();
   app.add_option("--views", settings->views,
                  "all, centre, or a list of names, indices and ranges: 0,4-6,view_09")

@@ -6,6 +6,7 @@
 
 #include "depth_range.h"
 #include "did_you_mean.h"
+#include "gigaray/adapters/feature_ranges.h"
 #include "gigaray/adapters/pose_check.h"
 #include "gigaray/camera_order.h"
 #include "memory_option.h"
@@ -113,6 +114,7 @@ DepthOptions DepthRunOptions::resolve(LightField& light_field, const RunControl&
   if (!disparity.empty()) check_inverse_depth(*options.disparity, light_field, control);
   require_memory_to_look(light_field, options);
   check_poses(light_field, input.open.convention.has_value(), control);
+  if (!options.disparity) take_range_of_features(light_field, control);
   settle_layout(input, light_field, control);
   if (const auto range = check_direction(light_field, control); range && !options.disparity) {
     options.disparity = range;

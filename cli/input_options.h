@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "gigaray/adapters/colmap_program.h"
 #include "gigaray/adapters/reader.h"
 #include "rig_options.h"
 
@@ -20,6 +21,7 @@ struct InputOptions {
   std::string without;  ///< list of views; empty: none
   RigOptions rig;
   bool find_cameras = false;  ///< of a folder of pictures, with COLMAP, even if they form a row
+  ColmapQuality quality = ColmapQuality::kMedium;  ///< of such cameras
 
   void add_to(CLI::App& app);
   /// All that is read: no output may be there.

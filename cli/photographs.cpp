@@ -34,6 +34,8 @@ std::string record_of(const fs::path& photographs, const ColmapRunOptions& optio
     record += fs::absolute(folder).string() + "\n";
     for (const std::string& line : lines) record += line;
   }
+  if (options.quality == ColmapQuality::kLow) record += "low quality\n";
+  if (options.quality == ColmapQuality::kHigh) record += "high quality\n";
   if (options.max_size > 0) record += fmt::format("at most {} px\n", options.max_size);
   if (options.lens)
     record += fmt::format("{} {:.9g} {}\n", options.lens->model,
@@ -132,6 +134,7 @@ LightField open_or_find_cameras(InputOptions input, const OutputOption& output,
   ColmapRunOptions options;
   options.masks = input.open.masks;
   options.max_size = input.max_size;
+  options.quality = input.quality;
   options.strict = input.open.strict;
   const fs::path work = find_cameras(input.input, options, output, control);
   OpenOptions open;

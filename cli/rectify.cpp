@@ -84,6 +84,7 @@ RectifiedRail calibrate(const RailPhotographs& photographs, const RectifyOptions
 /// What COLMAP is told about the lens: all of it, or a focal length to begin with.
 ColmapRunOptions colmap_options(const RailPhotographs& photographs, const KnownLens& known) {
   ColmapRunOptions options;
+  options.quality = ColmapQuality::kHigh;
   if (!known.lens && !known.focal_px) return options;
   options.lens = photographs.pictures.front().lens;
   options.refine_lens = !known.lens;

@@ -73,11 +73,12 @@ void SurfaceInput::declare(CLI::App& app) {
       ->check(CLI::Range(0.0, 1.0))
       ->type_name("C")
       ->capture_default_str();
-  app.add_option("--min-support", points.least_support,
-                 "Leave out points that fewer other views see where they are")
+  app.add_option_function<int>(
+         "--min-support", [this](int support) { points.least_support = support; },
+         "Leave out points that fewer other views see where they are (default: two, and four "
+         "fifths of those that should)")
       ->check(CLI::Range(0, 1000))
-      ->type_name("N")
-      ->capture_default_str();
+      ->type_name("N");
 }
 
 double SurfaceInput::view_bytes(double pixels, int num_views) {
@@ -112,7 +113,8 @@ void print(const PointCounts& counts, int num_views, const PointOptions& options
   fmt::print("too far       {} whose depth could be twice as large\n", counts.too_far);
   fmt::print("contradicted  {} that more views see through than see\n", counts.contradicted);
   fmt::print("unconfirmed   {} that fewer than {} other views see\n", counts.unconfirmed,
-             options.least_support);
+             options.least_support ? std::to_string(*options.least_support)
+                                   : "two, or than four fifths of those that should,");
 }
 
 nlohmann::ordered_json as_json(const PointCounts& counts) {

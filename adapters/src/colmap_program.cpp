@@ -4,6 +4,8 @@
 #include "gigaray/adapters/colmap_program.h"
 
 #include <algorithm>
+#include <chrono>
+#include <cmath>
 #include <fstream>
 #include <functional>
 #include <regex>
@@ -16,6 +18,7 @@
 #include "gigaray/adapters/atomic_output.h"
 #include "gigaray/adapters/child_process.h"
 #include "gigaray/adapters/input_file.h"
+#include "numbered_names.h"
 #include "picture_files.h"
 #include "text.h"
 
@@ -118,6 +121,21 @@ class Program {
   std::string last_line_;
 };
 
+/// Times of what follows each other.
+class Stopwatch {
+ public:
+  /// "12 s", since the last call.
+  std::string lap() {
+    const auto now = std::chrono::steady_clock::now();
+    const double seconds = std::chrono::duration<double>(now - last_).count();
+    last_ = now;
+    return std::to_string(std::lround(seconds)) + " s";
+  }
+
+ private:
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
 std::string list_text(const Words& names) {
   constexpr std::size_t kMost = 5;
   std::string text;
@@ -191,14 +209,34 @@ Words octave_arguments(const std::vector<PictureSpec>& specs) {
   return {"--SiftExtraction.first_octave", large ? "0" : "-1"};
 }
 
+/// What a quality is made of.
+struct Effort {
+  int max_size;      ///< px
+  int max_features;  ///< of a photograph
+  int neighbours;    ///< that each is compared with, where not with all
+};
+
+Effort effort_of(ColmapQuality quality) {
+  switch (quality) {
+    case ColmapQuality::kLow:
+      return {1000, 2048, 5};
+    case ColmapQuality::kMedium:
+      return {1600, 4096, 10};
+    case ColmapQuality::kHigh:
+      return {3200, 8192, 20};
+  }
+  GIGARAY_CHECK(false);
+}
+
 /// COLMAP looks at pictures reduced like those that get depth, though never at tiny ones; its
 /// cameras are for the whole size.
-Words size_arguments(Program& program, int max_size) {
+Words size_arguments(Program& program, const ColmapRunOptions& options) {
   constexpr int kLeast = 320;
-  if (max_size == 0) return {};
+  int size = effort_of(options.quality).max_size;
+  if (options.max_size > 0) size = std::min(size, std::max(options.max_size, kLeast));
   return {program.known_option("feature_extractor", {"--SiftExtraction.max_image_size",
                                                      "--FeatureExtraction.max_image_size"}),
-          std::to_string(std::max(max_size, kLeast))};
+          std::to_string(size)};
 }
 
 Words joined(std::initializer_list<Words> parts) {
@@ -243,8 +281,6 @@ void find_features(Program& program, const fs::path& folder, const ColmapPicture
   std::string list;
   for (const std::string& name : names) list += name + "\n";
   write_file_atomically(work / "photographs.txt", list);
-  // Pairs take the square of the number of features, which more photographs need less.
-  const bool many = names.size() > 40;
   const std::string on_gpu = program.known_option(
       "feature_extractor", {"--SiftExtraction.use_gpu", "--FeatureExtraction.use_gpu"});
   FeatureCounts features;
@@ -252,9 +288,10 @@ void find_features(Program& program, const fs::path& folder, const ColmapPicture
       "COLMAP: features",
       joined({{"feature_extractor", "--database_path", work / "database.db", "--image_path",
                pictures.folder(), "--image_list_path", work / "photographs.txt", on_gpu, "0",
-               "--SiftExtraction.max_num_features", many ? "4096" : "8192"},
+               "--SiftExtraction.max_num_features",
+               std::to_string(effort_of(options.quality).max_features)},
               octave_arguments(specs),
-              size_arguments(program, options.max_size),
+              size_arguments(program, options),
               cameras,
               masks}),
       [&](const std::string& line) {
@@ -264,26 +301,48 @@ void find_features(Program& program, const fs::path& folder, const ColmapPicture
   check_features(features, names, folder, control);
 }
 
-void match_features(Program& program, const fs::path& work, std::size_t num_pictures,
-                    const RunControl& control) {
-  constexpr std::size_t kMostForAllPairs = 100;
-  const bool all_pairs = num_pictures <= kMostForAllPairs;
+/// Frames of a walk: names that differ by one number, in its order, and few are left out.
+bool are_in_order(const Words& names) {
+  constexpr double kMostPerPicture = 2;
+  const NameGroup group = largest_group({names.begin(), names.end()});
+  if (group.pictures.size() < names.size() || group.changing.size() != 1) return false;
+  const auto name = [](const NumberedPicture& picture) { return picture.path.string(); };
+  if (!std::ranges::is_sorted(group.pictures, {}, name)) return false;  // "9", "10": not COLMAP's
+  const std::size_t which = *group.changing.begin();
+  const auto span =
+      double(group.pictures.back().numbers[which] - group.pictures.front().numbers[which]);
+  return span < kMostPerPicture * double(names.size());
+}
+
+void match_features(Program& program, const fs::path& work, const Words& names,
+                    ColmapQuality quality, const RunControl& control) {
+  constexpr std::size_t kMostForAllPairs = 100, kMostInOrder = 30;
+  const bool in_order = names.size() > kMostInOrder && are_in_order(names);
+  const bool all_pairs = !in_order && names.size() <= kMostForAllPairs;
+  const int neighbours = effort_of(quality).neighbours;
   if (!all_pairs)
-    control.message("more than " + std::to_string(kMostForAllPairs) +
-                    " photographs: only neighbours in the order of their names are compared");
+    control.message(
+        (in_order ? std::to_string(names.size()) + " photographs numbered one after the other"
+                  : "more than " + std::to_string(kMostForAllPairs) + " photographs") +
+        ": each is compared with its next " + std::to_string(neighbours) +
+        " in the order of their names, and with some farther ones");
   const std::string command = all_pairs ? "exhaustive_matcher" : "sequential_matcher";
   const std::string on_gpu =
       program.known_option(command, {"--SiftMatching.use_gpu", "--FeatureMatching.use_gpu"});
   Words arguments{command, "--database_path", work / "database.db", on_gpu, "0"};
-  // Small blocks, so that there is progress to show.
-  if (all_pairs) arguments.insert(arguments.end(), {"--ExhaustiveMatching.block_size", "5"});
+  if (all_pairs)  // small blocks, so that there is progress to show
+    arguments.insert(arguments.end(), {"--ExhaustiveMatching.block_size", "5"});
+  else
+    arguments.insert(arguments.end(), {"--SequentialMatching.overlap", std::to_string(neighbours)});
   program.run_or_throw("COLMAP: matches", arguments, progress_in_brackets);
 }
 
 void find_cameras(Program& program, const fs::path& folder, const fs::path& work,
                   std::size_t num_pictures, const ColmapRunOptions& options) {
+  // Photographs that fall apart into parts still have cameras: the largest part is taken.
   Words arguments{"mapper", "--database_path", work / "database.db", "--image_path",
-                  folder,   "--output_path",   work / "sparse"};
+                  folder,   "--output_path",   work / "sparse",      "--Mapper.min_model_size",
+                  "3"};
   if (options.lens && !options.refine_lens)
     arguments.insert(arguments.end(), {"--Mapper.ba_refine_focal_length", "0",
                                        "--Mapper.ba_refine_extra_params", "0"});
@@ -314,9 +373,14 @@ ColmapRun run_colmap(const fs::path& photographs, const fs::path& work,
   result.num_pictures = int(names.size());
   Program program(result.log, control);
   pictures.write_copies(options.masks, control);
+  Stopwatch watch;
   find_features(program, photographs, pictures, work, options, control);
-  match_features(program, work, names.size(), control);
+  const std::string for_features = watch.lap();
+  match_features(program, work, names, options.quality, control);
+  const std::string for_matches = watch.lap();
   find_cameras(program, pictures.folder(), work, names.size(), options);
+  control.message("COLMAP took " + for_features + " for features, " + for_matches +
+                  " for matches, " + watch.lap() + " for cameras");
 
   const std::vector<fs::path> models = colmap_models_below(work / "sparse");
   std::set<std::string> registered;

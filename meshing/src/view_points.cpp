@@ -35,6 +35,12 @@ Eigen::Vector3d tangent(const DepthView& view, int u, int v, int du, int dv, flo
          point_of(view, behind ? u - du : u, behind ? v - dv : v);
 }
 
+/// Views that must see a point when so many should.
+int usual_support(int should_see) {
+  constexpr int kLeast = 2;
+  return std::max(kLeast, int(std::ceil(kSupportShare * should_see - 1e-9)));
+}
+
 }  // namespace
 
 PointCounts& PointCounts::operator+=(const PointCounts& other) {
@@ -68,14 +74,13 @@ std::vector<int> witnesses_of(const std::vector<Camera>& cameras, int view, int 
 
 KeptPixels keep_pixels(const DepthView& view, std::span<const DepthView> witnesses,
                        SurfaceTolerance tolerance, const PointOptions& options) {
-  if (options.least_support < 0 ||
+  if (options.least_support.value_or(0) < 0 ||
       !(options.least_confidence >= 0 && options.least_confidence <= 1))
     throw Error(ErrorCode::kInvalidArgument,
                 "points need a support of 0 or more and a confidence of 0 … 1, not of " +
-                    std::to_string(options.least_support) + " and " +
+                    std::to_string(options.least_support.value_or(0)) + " and " +
                     std::to_string(options.least_confidence));
   const int width = view.inverse_depth.width(), height = view.inverse_depth.height();
-  const int least_support = std::min(options.least_support, int(witnesses.size()));
   KeptPixels kept{Mask(width, height), FloatMap(width, height), {}};
   std::vector<PointCounts> counts(height);
   const auto keep = [&](int u, int v, PointCounts& row) {
@@ -86,16 +91,18 @@ KeptPixels keep_pixels(const DepthView& view, std::span<const DepthView> witness
       return ++row.unsure, false;
     if (w < kTooFar * tolerance.between_views) return ++row.too_far, false;
     const Eigen::Vector3d point = point_of(view, u, v);
-    int sees = 0, through = 0;
+    int sees = 0, through = 0, unclear = 0;
     for (const DepthView& witness : witnesses) {
       const Sight sight = sight_of(witness.camera, witness.inverse_depth, point,
                                    tolerance.between_views, tolerance.between_pixels);
       sees += sight == Sight::kSees;
       through += sight == Sight::kSeesThrough;
+      unclear += sight == Sight::kUnclear;
     }
     kept.support(u, v) = float(sees);
     if (through > sees) return ++row.contradicted, false;
-    if (sees < least_support) return ++row.unconfirmed, false;
+    const int wanted = options.least_support.value_or(usual_support(sees + through + unclear));
+    if (sees < std::min(wanted, int(witnesses.size()))) return ++row.unconfirmed, false;
     return ++row.points, true;
   };
   parallel_for(

@@ -22,18 +22,19 @@ Sight sight_of(const Camera& camera, const FloatMap& inverse_depth, const Eigen:
   const float corners[] = {inverse_depth(u0, v0), inverse_depth(u1, v0), inverse_depth(u0, v1),
                            inverse_depth(u1, v1)};
   const float here = float(1 / place.z());
-  bool is_seen = false, is_farther = true, is_known = true;
+  bool is_seen = false, is_farther = true, is_nearer = true, is_known = true;
   for (const float there : corners) {
     is_seen |= std::abs(there - here) <= between_views;
     is_farther &= there < here - between_views;
+    is_nearer &= there > here + between_views;
     is_known &= there > 0;
   }
   if (is_seen) return Sight::kSees;
   if (is_farther) return Sight::kSeesThrough;
-  if (!is_known) return Sight::kNothing;
+  if (!is_known || is_nearer) return Sight::kNothing;
   const auto [least, most] = std::ranges::minmax(corners);
   const bool is_one = is_one_surface(least, most, 0.5 * camera.focal_u, between_pixels);
-  return is_one && least <= here && here <= most ? Sight::kSees : Sight::kNothing;
+  return is_one && least <= here && here <= most ? Sight::kSees : Sight::kUnclear;
 }
 
 }  // namespace gigaray

@@ -9,9 +9,10 @@ namespace gigaray {
 
 /// How a view sees a point.
 enum class Sight {
-  kNothing,     ///< outside, hidden by something nearer, or no estimate there
-  kSees,        ///< its surface is where the point is
-  kSeesThrough  ///< it sees something farther there
+  kNothing,      ///< outside, hidden by something nearer, or no estimate there
+  kSees,         ///< its surface is where the point is
+  kSeesThrough,  ///< it sees something farther there
+  kUnclear       ///< it sees something nearer and something farther beside each other
 };
 
 /// Looks at the four pixels around the point. Where they show one surface the point may lie

@@ -69,8 +69,9 @@ TEST_F(ColmapProgram, FindsTheCamerasOfPhotographsUpToScale) {
   EXPECT_EQ(run.lost, std::vector<std::string>{"stranger.png"});
   EXPECT_EQ(stages,
             (std::set<std::string>{"COLMAP: features", "COLMAP: matches", "COLMAP: cameras"}));
-  ASSERT_EQ(messages.size(), 1);
-  EXPECT_NE(messages[0].find("stranger.png"), std::string::npos);
+  ASSERT_EQ(messages.size(), 2);
+  EXPECT_NE(messages[0].find("s for features"), std::string::npos) << messages[0];
+  EXPECT_NE(messages[1].find("stranger.png"), std::string::npos);
   EXPECT_NE(read("work/colmap.log").find("Feature extraction"), std::string::npos);
 
   const ColmapModel model = read_colmap_model(run.model);
@@ -143,6 +144,60 @@ TEST_F(ColmapProgram, PhotographsWithoutFeaturesAreNamedBeforeTheyAreCompared) {
   testing_support::expect_error(
       ErrorCode::kBadInput, {"nothing to compare in 2 of 3", "blank.png, white.png"},
       [&] { run_colmap(folder / "photos", folder / "work", {}, control); });
+}
+
+TEST_F(ColmapProgram, PhotographsOfTwoPlacesAreTwoModelsAndTheLargerIsTaken) {
+  photograph(9);
+  // Mirrored ones are of another place.
+  for (int i = 5; i < 9; ++i) {
+    const std::string name = (folder / "photos/p").string() + std::to_string(i) + ".png";
+    const cv::Mat picture = cv::imread(name);
+    cv::Mat other;
+    cv::flip(picture, other, 0);
+    cv::imwrite(name, other);
+  }
+  std::string messages;
+  control.on_message = [&](const std::string& text) { messages += text + "\n"; };
+  ColmapRunOptions options;
+  options.lens = lens;
+  options.quality = ColmapQuality::kLow;
+  const ColmapRun run = run_colmap(folder / "photos", folder / "work", options, control);
+  EXPECT_EQ(run.num_registered, 5);
+  EXPECT_EQ(run.lost, (std::vector<std::string>{"p5.png", "p6.png", "p7.png", "p8.png"}));
+  EXPECT_NE(messages.find("2 models"), std::string::npos) << messages;
+  EXPECT_NE(messages.find("has 5"), std::string::npos) << messages;
+  EXPECT_NE(messages.find("has 4"), std::string::npos) << messages;
+  EXPECT_NE(messages.find("s for features"), std::string::npos) << messages;
+  const std::string log = read("work/colmap.log");
+  EXPECT_NE(log.find("max_image_size 1000"), std::string::npos);
+  EXPECT_NE(log.find("max_num_features 2048"), std::string::npos);
+}
+
+TEST_F(ColmapProgram, ManyFramesInOrderAreComparedWithTheirNeighbours) {
+  const auto command_for = [&](const std::string& last) {
+    std::filesystem::remove_all(folder / "photos");
+    std::filesystem::remove_all(folder / "work");
+    const cv::Mat frame = textured_planes(cameras_before_planes(1)[0]);
+    for (int i = 0; i < 31; ++i) {
+      const cv::Mat moved = frame(cv::Rect(i, 0, 200, 150)).clone();
+      std::string name = "photos/frame" + std::to_string(100 + i) + ".png";
+      if (i == 30) name = "photos/" + last;
+      save(name, moved);
+    }
+    RunControl till_matches;
+    till_matches.on_progress = [&](const std::string& stage, double, double) {
+      if (stage == "COLMAP: matches") till_matches.cancel();
+    };
+    ColmapRunOptions options;
+    options.quality = ColmapQuality::kLow;
+    expect_error(ErrorCode::kCancelled, "stopped",
+                 [&] { run_colmap(folder / "photos", folder / "work", options, till_matches); });
+    return read("work/colmap.log");
+  };
+  EXPECT_NE(command_for("frame130.png").find("--SequentialMatching.overlap 5"), std::string::npos);
+  // Not in order: a name of another kind, a number far away.
+  for (const char* last : {"church.png", "frame900.png"})
+    EXPECT_NE(command_for(last).find("exhaustive_matcher"), std::string::npos) << last;
 }
 
 TEST_F(ColmapProgram, CancellingEndsTheProgramSoon) {

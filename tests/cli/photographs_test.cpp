@@ -52,6 +52,34 @@ TEST_F(Photographs, WithKnownCamerasHaveDepthInTheirUnit) {
   EXPECT_EQ(names_in("."), (Names{"out", "walk"}));
 }
 
+TEST_F(Photographs, WithoutPointsAreSearchedWhereTheirFeaturesAre) {
+  photograph();
+  // Poses alone.
+  std::istringstream lines(text_of("walk/sparse/0/images.txt"));
+  std::string line, poses;
+  for (bool is_pose = true; std::getline(lines, line);) {
+    if (line.starts_with("#")) continue;
+    poses += is_pose ? line + "\n" : "\n";
+    is_pose = !is_pose;
+  }
+  std::ofstream(folder / "walk/sparse/0/images.txt") << poses;
+  std::ofstream(folder / "walk/sparse/0/points3D.txt") << "# none\n";
+  const Result info = run("info walk --json");
+  ASSERT_EQ(info.exit_code, 0) << info.err;
+  const json told = json::parse(info.out);
+  EXPECT_NE(told.at("notes").dump().find("features that the pictures share"), std::string::npos)
+      << told.at("notes");
+  for (const json& view : told.at("views")) {
+    const json& range = view.at("camera").at("inverse_depth");
+    const FloatMap depth =
+        read_pfm(folder / "walk/truth" / (view.at("name").get<std::string>() + ".pfm"));
+    const auto [near, far] = std::ranges::minmax(depth);
+    EXPECT_LE(range.at(0).get<double>(), 1 / far);
+    EXPECT_GE(range.at(1).get<double>(), 1 / near);
+    EXPECT_LT(range.at(1).get<double>() - range.at(0).get<double>(), 1.6 * (1 / near - 1 / far));
+  }
+}
+
 TEST_F(Photographs, AloneGetTheirCamerasFromColmap) {
   photograph();
   const Result result =
@@ -77,10 +105,14 @@ TEST_F(Photographs, AloneGetTheirCamerasFromColmap) {
   EXPECT_GT(within(map, truth, 0.03, ratios[ratios.size() / 2]), 0.7);
 
   // The next run takes the cameras that are there; other photographs are looked at anew.
-  const Result again =
-      run(std::string("depth walk/images -o out --find-cameras --views centre") + kFast);
+  const std::string once_more = "depth walk/images -o out --find-cameras --views centre";
+  const Result again = run(once_more + kFast);
   ASSERT_EQ(again.exit_code, 0) << again.err;
   EXPECT_NE(again.err.find("as COLMAP found them before"), std::string::npos) << again.err;
+  expect_refusal(once_more + " --quality best", 2, "--quality", "low, medium, high");
+  const Result closer = run(once_more + " --quality high" + kFast);
+  ASSERT_EQ(closer.exit_code, 0) << closer.err;
+  EXPECT_NE(text_of("out.colmap/colmap.log").find("max_num_features 8192"), std::string::npos);
 }
 
 TEST_F(Photographs, AFolderOfSomebodyElseInPlaceOfTheCamerasStays) {

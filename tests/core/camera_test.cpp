@@ -94,6 +94,18 @@ TEST(InverseDepths, OfPointsAreRobustAndWidened) {
   EXPECT_EQ(widened({0, 1}).min, 0);
 }
 
+TEST(InverseDepths, InfinityIsSearchedOnlyWherePointsAreAsFar) {
+  // Depths 1 … 10: a fifth of the inverse depths more would hold infinity.
+  const InverseDepthRange deep = widened({0.1, 1});
+  EXPECT_NEAR(1 / deep.min, 15, 1e-9);
+  EXPECT_NEAR(deep.max, 1.18, 1e-9);
+  const InverseDepthRange narrow = widened({0.4, 0.5});
+  EXPECT_NEAR(narrow.min, 0.38, 1e-9);
+  EXPECT_NEAR(narrow.max, 0.52, 1e-9);
+  EXPECT_EQ(widened({0.009, 1}).min, 0);
+  EXPECT_GT(widened({0.011, 1}).min, 0);
+}
+
 TEST(PlaceByCameras, StepsAreThoseToTheNearestNeighbour) {
   LightField light_field;
   for (int i = 0; i < 4; ++i) {

@@ -4,8 +4,11 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
+
 #include "support/analytic_field.h"
 #include "support/errors.h"
+#include "support/posed_field.h"
 
 namespace gigaray::testing_support {
 namespace {
@@ -88,6 +91,100 @@ TEST(NoiseEstimate, BandwidthsGrowWithItFromALeastValue) {
   EXPECT_GT(noisy.score.gradient_bandwidth, clean.score.gradient_bandwidth);
   EXPECT_GT(noisy.support.sigma_colour, clean.support.sigma_colour);
   EXPECT_NO_THROW(noisy.check());
+}
+
+/// Pictures of which one is replaced.
+class WithStray : public PixelSource {
+ public:
+  WithStray(std::shared_ptr<const PixelSource> all, int stray, Image<std::uint16_t> picture)
+      : all_(std::move(all)), stray_(stray), picture_(std::move(picture)) {}
+  Image<std::uint16_t> read(int view) const override {
+    return view == stray_ ? picture_ : all_->read(view);
+  }
+  int bit_depth() const override { return all_->bit_depth(); }
+
+ private:
+  std::shared_ptr<const PixelSource> all_;
+  int stray_;
+  Image<std::uint16_t> picture_;
+};
+
+/// A walk of 15 photographs, the middle one of which shows something else on demand.
+LightField walk_of_15() {
+  const std::vector<View> views = grid_of_views(5, 3);
+  PosedField field = posed_field(cameras_around(views, 121, 91), views);
+  for (Camera& camera : field.light_field.cameras) camera.inverse_depth = {1 / 12.0, 1 / 7.0};
+  return field.light_field;
+}
+
+void expect_same_bandwidths(const NoiseEstimate& noise, const NoiseEstimate& wanted) {
+  DepthOptions options = auto_options(), as_wanted = auto_options();
+  apply_noise(noise, options);
+  apply_noise(wanted, as_wanted);
+  constexpr double kOtherViewsAsked = 0.15;  // a view less moves the places of those that tell
+  EXPECT_NEAR(options.score.bandwidth, as_wanted.score.bandwidth,
+              kOtherViewsAsked * as_wanted.score.bandwidth);
+  EXPECT_NEAR(options.score.gradient_bandwidth, as_wanted.score.gradient_bandwidth,
+              kOtherViewsAsked * as_wanted.score.gradient_bandwidth);
+}
+
+TEST(NoiseOfAWalk, AStrayPhotographInItsMiddleChangesNothing) {
+  const RunControl control;
+  const HypothesisRange hypotheses{0, 1, 64};
+  const LightField walk = walk_of_15();
+  const int centre = centre_view(walk);
+  const NoiseEstimate wanted = estimate_noise(without(walk, {centre}), hypotheses, control);
+  EXPECT_GT(wanted.lead, 2);
+
+  // Something else: fine noise of other colours.
+  LightField stray = walk;
+  Image<std::uint16_t> other(walk.width, walk.height, 3);
+  std::uint32_t state = 1;
+  for (std::uint16_t& value : other) value = std::uint16_t((state = state * 1664525 + 1) >> 24);
+  stray.pixels = std::make_shared<WithStray>(walk.pixels, centre, other);
+  expect_same_bandwidths(estimate_noise(stray, hypotheses, control), wanted);
+
+  // The right picture, but its camera looks another way: it has no partners.
+  LightField turned = walk;
+  Camera& camera = turned.cameras[centre];
+  camera.rotation = Eigen::AngleAxisd(2, Eigen::Vector3d::UnitY()) * camera.rotation;
+  camera.translation = Eigen::AngleAxisd(2, Eigen::Vector3d::UnitY()) * camera.translation;
+  expect_same_bandwidths(estimate_noise(turned, hypotheses, control), wanted);
+
+  // The right picture in the wrong place: it has partners, and nothing fits.
+  LightField moved = walk;
+  moved.cameras[centre].translation += Eigen::Vector3d(0.7, -0.9, 0);
+  expect_same_bandwidths(estimate_noise(moved, hypotheses, control), wanted);
+}
+
+TEST(NoiseOfAWalk, WithoutAnythingInCommonThereIsNoneAndThatIsSaid) {
+  RunControl control;
+  std::string messages;
+  control.on_message = [&](const std::string& text) { messages += text; };
+  LightField walk = walk_of_15();
+  for (int i = 0; i < walk.num_views(); ++i)
+    walk.cameras[i].rotation =
+        Eigen::AngleAxisd(2 * i, Eigen::Vector3d::UnitY()) * walk.cameras[i].rotation;
+  const LightField apart = without(walk, {3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14});
+  const NoiseEstimate noise = estimate_noise(apart, {0, 1, 16}, control);
+  DepthOptions options = auto_options();
+  apply_noise(noise, options);
+  EXPECT_EQ(options.score.bandwidth, kLeastBandwidth);
+  EXPECT_EQ(options.score.gradient_bandwidth, kLeastGradientBandwidth);
+  EXPECT_NE(messages.find("no view agrees"), std::string::npos);
+}
+
+TEST(NoiseOfARow, IsThatOfItsCentreUnlessThatShowsSomethingElse) {
+  const RunControl control;
+  const AnalyticField field = analytic_field(93, 61, row_of_views(9), {{0.5}}, 8, 0.02);
+  const NoiseEstimate noise = estimate_noise(field.light_field, {-1, 2, 31}, control);
+  EXPECT_EQ(noise.view, centre_view(field.light_field));
+  LightField stray = field.light_field;
+  stray.pixels = std::make_shared<WithStray>(stray.pixels, noise.view,
+                                             Image<std::uint16_t>(stray.width, stray.height, 3));
+  const NoiseEstimate found = estimate_noise(stray, {-1, 2, 31}, control);
+  EXPECT_NE(found.view, noise.view);
+  EXPECT_LT(found.colour, 2 * noise.colour + 0.05);
 }
 
 TEST(RayDoubt, ComesWithNoiseAndWithFewViews) {

@@ -75,6 +75,40 @@ TEST_F(ViewPoints, ALoneViewNeedsNoWitness) {
   EXPECT_EQ(kept.counts.unconfirmed, 0u);
 }
 
+TEST_F(ViewPoints, UsuallyFourFifthsOfThoseThatShouldSeeAPointMustSeeIt) {
+  const DepthView view = views.read(3);
+  std::vector<DepthView> witnesses = witnesses_for(3);
+  ASSERT_EQ(witnesses.size(), 6u);
+  const auto keeps = [&](std::optional<int> support) {
+    PointOptions options;
+    options.least_support = support;
+    return keep_pixels(view, witnesses, tolerance, options).keep(36, 31) == 1;
+  };
+  // The middle of the sphere, which all see.
+  EXPECT_TRUE(keeps(std::nullopt));
+  EXPECT_TRUE(keeps(6));
+  // Two of them see something farther on one side of it and something nearer on the other: not
+  // through it, and not it.
+  const auto disturb = [&](DepthView& witness) {
+    const Eigen::Vector3d at = witness.camera.project(
+        view.camera.back_project(36, 31, 1 / double(view.inverse_depth(36, 31))));
+    const int u = int(at.x()), v = int(at.y());
+    for (int y = v; y <= v + 1; ++y) {
+      witness.inverse_depth(u, y) *= 0.5f;
+      witness.inverse_depth(u + 1, y) *= 2;
+    }
+  };
+  disturb(witnesses[0]);
+  EXPECT_TRUE(keeps(std::nullopt));  // 5 of 6
+  disturb(witnesses[1]);
+  EXPECT_FALSE(keeps(std::nullopt));  // 4 of 6
+  EXPECT_TRUE(keeps(4));
+  EXPECT_FALSE(keeps(5));
+  // One without an estimate there is not asked: 4 of 5.
+  for (float& value : witnesses[1].inverse_depth) value = kNoEstimate;
+  EXPECT_TRUE(keeps(std::nullopt));
+}
+
 TEST_F(ViewPoints, AbsurdOptionsAreRefused) {
   PointOptions options;
   options.least_support = -1;

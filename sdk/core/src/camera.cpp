@@ -58,9 +58,12 @@ InverseDepthRange all_inverse_depths(const std::vector<Camera>& cameras) {
 
 InverseDepthRange widened(const InverseDepthRange& seen) {
   constexpr double kMargin = 0.2;
+  constexpr double kFarther = 1.5;    // times the farthest depth, at most
+  constexpr double kInfinity = 0.01;  // of the nearest: as good as none
   // Points of one depth alone still leave something to search.
   const double margin = std::max(kMargin * (seen.max - seen.min), 0.02 * seen.max);
-  return {std::max(0.0, seen.min - margin), seen.max + margin};
+  if (seen.min < kInfinity * seen.max) return {0, seen.max + margin};
+  return {std::max(seen.min / kFarther, seen.min - margin), seen.max + margin};
 }
 
 std::optional<InverseDepthRange> range_of_depths(std::vector<double> depths) {

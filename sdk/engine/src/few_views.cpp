@@ -99,11 +99,11 @@ void adapt_to_few_views(const LightField& light_field, DepthOptions& options) {
   support.jump_sigma_colour *= 1 + kMoreJumpSigma * few;
 }
 
-NoiseEstimate estimate_window_noise(const LightField& light_field,
+NoiseEstimate estimate_window_noise(const LightField& light_field, int view,
                                     const HypothesisRange& hypotheses, const RunControl& control) {
   constexpr int kMostRows = 16, kPixelsOfRow = 40;
   const int width = light_field.width, rows = std::min(kMostRows, light_field.height);
-  const NoiseRows sampled = load_noise_rows(light_field, hypotheses, rows, kReach, control);
+  const NoiseRows sampled = load_noise_rows(light_field, view, hypotheses, rows, kReach, control);
   std::vector<std::vector<PixelDistance>> found(sampled.rows.size());
   parallel_for(
       rows,
@@ -128,7 +128,7 @@ NoiseEstimate estimate_window_noise(const LightField& light_field,
       colour.push_back(distance.colour);
       gradient.push_back(distance.gradient);
     }
-  return {percentile(colour, 0.25), percentile(gradient, 0.25), 0};
+  return {percentile(colour, 0.25), percentile(gradient, 0.25), 0, view};
 }
 
 void widen(const NoiseEstimate& noise, DepthOptions& options) {

@@ -19,8 +19,8 @@ void adapt_to_few_views(const LightField& light_field, DepthOptions& options);
 /// Noise of few views, of windows. The least of many distances of one pixel is one by chance: of
 /// two pictures of a wide range estimate_noise() finds a half or a third of the noise there is.
 /// Which hypothesis is right is asked the pixels around, too, and how far the pixel is off says it
-/// alone. lead: 0. Memory: some rows of all views.
-NoiseEstimate estimate_window_noise(const LightField& light_field,
+/// alone. lead: 0. view: whose. Memory: some rows of all views.
+NoiseEstimate estimate_window_noise(const LightField& light_field, int view,
                                     const HypothesisRange& hypotheses, const RunControl& control);
 
 /// Widens the bandwidths and sigma_colour to what this noise asks for.

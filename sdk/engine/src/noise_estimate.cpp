@@ -18,17 +18,32 @@ constexpr int kGrid = 8;  // px between the pixels that are measured
 /// Of the pixels of one row of the first view.
 struct RowNoise {
   std::vector<float> colour, gradient, lead;
+  std::vector<std::vector<float>> of_others;  ///< colour distance of each where all agree best
 };
+
+/// Adds how far each other view is off on a ray.
+template <RaySampler S>
+void add_others(const Band& band, const S& sampler, const Ray& ray, const Sample& own,
+                std::vector<std::vector<float>>& of_others) {
+  for (int other = 1; other < band.num_views; ++other) {
+    const auto there = sampler.locate(0, other, ray);
+    const auto sample =
+        there ? reference::sample_at(band, other, there->u, there->v, true) : std::nullopt;
+    if (sample) of_others[other].push_back(reference::colour_distance(*sample, own));
+  }
+}
 
 template <RaySampler S>
 RowNoise measure_row(const Band& band, const S& sampler, int v, const HypothesisRange& hypotheses,
                      const RunControl& control) {
   RowNoise row;
+  row.of_others.resize(band.num_views);
   for (int u = kGrid / 2; u < band.shape.width; u += kGrid) {
     control.throw_if_cancelled();
     const Sample own = band.pixel(0, u, v);
     if (std::abs(own[0] - 0.5F) > reference::kMaskedBeyond) continue;
     PixelDistance best;
+    int best_hypothesis = -1;
     float sum_of_all = 0;
     int tested = 0;
     for (int h = 0; h < hypotheses.count; ++h) {
@@ -37,9 +52,13 @@ RowNoise measure_row(const Band& band, const S& sampler, int v, const Hypothesis
       if (!distance) continue;
       sum_of_all += distance->colour;
       ++tested;
+      if (distance->colour < best.colour) best_hypothesis = h;
       best.colour = std::min(best.colour, distance->colour);
       best.gradient = std::min(best.gradient, distance->gradient);
     }
+    if (best_hypothesis >= 0)
+      add_others(band, sampler, Ray{double(u), double(v), hypotheses.value(best_hypothesis)}, own,
+                 row.of_others);
     if (tested > 0) row.lead.push_back(sum_of_all / tested / std::max(best.colour, 1e-4f) - 1);
     row.colour.push_back(best.colour);
     row.gradient.push_back(best.gradient);
@@ -47,13 +66,34 @@ RowNoise measure_row(const Band& band, const S& sampler, int v, const Hypothesis
   return row;
 }
 
-}  // namespace
+/// What one view says.
+struct ViewNoise {
+  NoiseEstimate estimate;
+  bool is_measured = false;  ///< it agrees with others somewhere
+  std::vector<int> strays;   ///< others that show something else than the rest does
+};
 
-NoiseEstimate estimate_noise(const LightField& light_field, const HypothesisRange& hypotheses,
-                             const RunControl& control) {
-  constexpr int kMostRows = 16, kReach = 3;
-  const int rows = std::min(kMostRows, std::max(1, light_field.height / kGrid));
-  const NoiseRows sampled = load_noise_rows(light_field, hypotheses, rows, kReach, control);
+/// Others whose pixels are far off where most agree.
+std::vector<int> strays_of(const std::vector<int>& views, std::vector<std::vector<float>> off) {
+  constexpr double kFarOff = 0.1, kTimesMost = 4;
+  std::vector<float> medians;
+  for (std::size_t other = 1; other < views.size(); ++other)
+    medians.push_back(float(percentile(off[other], 0.5)));
+  std::vector<float> sorted = medians;
+  const double most = percentile(sorted, 0.5);
+  std::vector<int> strays;
+  for (std::size_t i = 0; i < medians.size(); ++i)
+    if (medians[i] > std::max(kFarOff, kTimesMost * most)) strays.push_back(views[i + 1]);
+  return strays;
+}
+
+ViewNoise measure_view(const LightField& light_field, int view, int most_rows,
+                       const HypothesisRange& hypotheses, const RunControl& control,
+                       const std::vector<int>& without) {
+  constexpr int kReach = 3;
+  const int rows = std::min(most_rows, std::max(1, light_field.height / kGrid));
+  const NoiseRows sampled =
+      load_noise_rows(light_field, view, hypotheses, rows, kReach, control, without);
   std::vector<RowNoise> found(sampled.rows.size());
   parallel_for(
       rows,
@@ -66,12 +106,73 @@ NoiseEstimate estimate_noise(const LightField& light_field, const HypothesisRang
       },
       [&](int) { control.throw_if_cancelled(); });
   std::vector<float> colour, gradient, lead;
+  std::vector<std::vector<float>> of_others(sampled.views.size());
   for (const RowNoise& row : found) {
     colour.insert(colour.end(), row.colour.begin(), row.colour.end());
     gradient.insert(gradient.end(), row.gradient.begin(), row.gradient.end());
     lead.insert(lead.end(), row.lead.begin(), row.lead.end());
+    for (std::size_t i = 0; i < of_others.size(); ++i)
+      of_others[i].insert(of_others[i].end(), row.of_others[i].begin(), row.of_others[i].end());
   }
-  return {percentile(colour, 0.25), percentile(gradient, 0.25), percentile(lead, 0.5)};
+  constexpr double kNearCap = 0.9;  // it agrees with nobody
+  ViewNoise result;
+  result.estimate = {percentile(colour, 0.25), percentile(gradient, 0.25), percentile(lead, 0.5),
+                     view};
+  result.is_measured =
+      !lead.empty() && result.estimate.colour < kNearCap * PixelDistance::kColourCap;
+  result.strays = strays_of(sampled.views, std::move(of_others));
+  return result;
+}
+
+/// The same, of posed views without what its partners show that is something else.
+ViewNoise measure_posed(const LightField& light_field, int view, const HypothesisRange& hypotheses,
+                        const RunControl& control) {
+  constexpr int kMostRows = 8;
+  ViewNoise found = measure_view(light_field, view, kMostRows, hypotheses, control, {});
+  if (!found.is_measured || found.strays.empty()) return found;
+  return measure_view(light_field, view, kMostRows, hypotheses, control, found.strays);
+}
+
+/// Some views that are compared with others, spread over all.
+std::vector<int> spread_views(const LightField& light_field) {
+  constexpr int kMostViews = 5;
+  const AnySampler sampler = make_sampler(light_field);
+  std::vector<int> compared;
+  for (int view = 0; view < light_field.num_views(); ++view)
+    if (std::visit([&](const auto& s) { return s.partners(view).size(); }, sampler) > 1)
+      compared.push_back(view);
+  const int count = std::min(kMostViews, int(compared.size()));
+  std::vector<int> chosen;
+  for (int i = 0; i < count; ++i)
+    chosen.push_back(compared[std::size_t(2 * i + 1) * compared.size() / (2 * count)]);
+  return chosen;
+}
+
+}  // namespace
+
+NoiseEstimate estimate_noise(const LightField& light_field, const HypothesisRange& hypotheses,
+                             const RunControl& control) {
+  constexpr int kMostRows = 16;
+  const bool is_posed = light_field.kind == LightFieldKind::kUnstructured;
+  const int centre = centre_view(light_field);
+  if (!is_posed) {
+    const ViewNoise found = measure_view(light_field, centre, kMostRows, hypotheses, control, {});
+    if (found.is_measured) return found.estimate;
+  }
+  std::vector<NoiseEstimate> measured;
+  for (const int view : spread_views(light_field)) {
+    const ViewNoise found =
+        is_posed ? measure_posed(light_field, view, hypotheses, control)
+                 : measure_view(light_field, view, kMostRows, hypotheses, control, {});
+    if (found.is_measured) measured.push_back(found.estimate);
+  }
+  if (measured.empty()) {
+    control.message("no view agrees with others anywhere: pictures are taken as free of noise");
+    return {0, 0, kLeadOfOwnPixel, centre};
+  }
+  const auto middle = measured.begin() + long((measured.size() - 1) / 2);
+  std::ranges::nth_element(measured, middle, {}, &NoiseEstimate::colour);
+  return *middle;
 }
 
 void apply_noise(const NoiseEstimate& noise, DepthOptions& options) {

@@ -10,25 +10,30 @@ namespace {
 
 using reference::Band;
 
-/// The centre view first, then some of those that it is compared with.
-std::vector<int> noise_views(const LightField& light_field, std::size_t most) {
-  const int centre = centre_view(light_field);
+/// The view first, then some of those that it is compared with.
+std::vector<int> noise_views(const LightField& light_field, int view, std::size_t most,
+                             const std::vector<int>& without) {
   std::vector<int> partners =
-      std::visit([&](const auto& s) { return s.partners(centre); }, make_sampler(light_field));
-  std::vector<int> chosen{centre};
+      std::visit([&](const auto& s) { return s.partners(view); }, make_sampler(light_field));
+  std::erase_if(partners, [&](int other) {
+    return std::find(without.begin(), without.end(), other) != without.end();
+  });
+  std::vector<int> chosen{view};
   const std::size_t stride = (partners.size() + most - 1) / most;
   for (std::size_t i = 0; i < partners.size(); i += stride)
-    if (partners[i] != centre) chosen.push_back(partners[i]);
+    if (partners[i] != view) chosen.push_back(partners[i]);
   return chosen;
 }
 
 }  // namespace
 
-NoiseRows load_noise_rows(const LightField& light_field, const HypothesisRange& hypotheses,
-                          int num_rows, int reach, const RunControl& control) {
+NoiseRows load_noise_rows(const LightField& light_field, int view,
+                          const HypothesisRange& hypotheses, int num_rows, int reach,
+                          const RunControl& control, const std::vector<int>& without) {
   const bool unstructured = light_field.kind == LightFieldKind::kUnstructured;
-  const LightField views = subset(light_field, noise_views(light_field, unstructured ? 9 : 25));
-  NoiseRows result{make_sampler(views), views.num_views(), {}, {}};
+  const std::vector<int> chosen = noise_views(light_field, view, unstructured ? 9 : 25, without);
+  const LightField views = subset(light_field, chosen);
+  NoiseRows result{make_sampler(views), views.num_views(), chosen, {}, {}};
   const int width = views.width, height = views.height;
   std::vector<RowRange> needed;
   int rows_of_all = 0;

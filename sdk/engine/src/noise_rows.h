@@ -15,11 +15,12 @@
 
 namespace gigaray {
 
-/// Rows of the centre view on which noise is measured, with what they reach in other views.
+/// Rows of a view on which noise is measured, with what they reach in other views.
 struct NoiseRows {
-  AnySampler sampler;  ///< of these views: the centre view first, then those it is compared with
+  AnySampler sampler;  ///< of these views: that one first, then those it is compared with
   int num_views = 0;
-  std::vector<int> rows;  ///< v, evenly spread
+  std::vector<int> views;  ///< which these are
+  std::vector<int> rows;   ///< v, evenly spread
   /// One of each row, or a single one where they reach much.
   std::vector<reference::Band> bands;
 
@@ -27,9 +28,10 @@ struct NoiseRows {
 };
 
 /// reach: rows around each that are looked at, taps and gradients included. Of unstructured views,
-/// where a row may need much of each, 9 are read, else 25.
-NoiseRows load_noise_rows(const LightField& light_field, const HypothesisRange& hypotheses,
-                          int num_rows, int reach, const RunControl& control);
+/// where a row may need much of each, 9 are read, else 25. without: views that are not asked.
+NoiseRows load_noise_rows(const LightField& light_field, int view,
+                          const HypothesisRange& hypotheses, int num_rows, int reach,
+                          const RunControl& control, const std::vector<int>& without = {});
 
 /// How far a pixel is off what other views see.
 struct PixelDistance {

@@ -76,7 +76,8 @@ struct Prepared {
 };
 
 /// Smooths noisy pictures, as little as will do, and sets what the options derive from the noise.
-void adapt_to_noise(Prepared& run, const RunControl& control) {
+/// Returns the view that told.
+int adapt_to_noise(Prepared& run, const RunControl& control) {
   const LightField original = run.light_field;
   NoiseEstimate noise = estimate_noise(original, run.hypotheses, control);
   const double lead = noise.lead;
@@ -99,6 +100,7 @@ void adapt_to_noise(Prepared& run, const RunControl& control) {
   }
   apply_noise(noise, run.options);
   apply_doubt(ray_doubt(noise, lead, std::max(most_others(original), 1)), run.options);
+  return noise.view;
 }
 
 std::string range_message(const DisparityRange& range) {
@@ -202,9 +204,9 @@ void adapt_to_pictures(Prepared& run, const RunControl& control) {
   if (run.options.score.even_exposures && run.light_field.kind == LightFieldKind::kUnstructured)
     even_exposures(run, control);
   if (run.options.score.from_noise) {
-    adapt_to_noise(run, control);
+    const int view = adapt_to_noise(run, control);
     if (most_others(run.light_field) <= kMostFewViews)
-      widen(estimate_window_noise(run.light_field, run.hypotheses, control), run.options);
+      widen(estimate_window_noise(run.light_field, view, run.hypotheses, control), run.options);
   } else if (run.options.score.smoothing > 0)
     run.light_field = smoothed(run.light_field, run.options.score.smoothing);
 }

@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The Gigaray authors
 #pragma once
 
+#include <optional>
 #include <span>
 
 #include "gigaray/meshing/depth_view.h"
@@ -12,10 +13,15 @@ namespace gigaray {
 /// Which pixels of a view become points.
 struct PointOptions {
   double least_confidence = 0.1;  ///< Points that are less sure are left out. [0, 1]
-  /// Other views that must see the point where it is; fewer where there are fewer views. ≥ 0
-  int least_support = 2;
+  /// Other views that must see the point where it is; fewer where there are fewer views. ≥ 0.
+  /// Empty: two, and kSupportShare of those that have its place in their pictures, know a depth
+  /// there and have nothing before it.
+  std::optional<int> least_support;
   int most_witnesses = 12;  ///< Other views that are asked, spread over all that look the same way.
 };
+
+/// Two of many agree by chance (docs/accuracy.md).
+inline constexpr double kSupportShare = 0.8;
 
 /// What became of pixels, in the order of the filters.
 struct PointCounts {

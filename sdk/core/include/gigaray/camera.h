@@ -49,7 +49,7 @@ void check(const Camera& camera, const std::string& name);
 /// The range that holds those of all cameras, each of which has one.
 InverseDepthRange all_inverse_depths(const std::vector<Camera>& cameras);
 
-/// What to search when points are seen in a range: a fifth of it more on both sides, never below 0.
+/// What to search around points: a fifth of their range more, and at most 1.5 times the farthest.
 InverseDepthRange widened(const InverseDepthRange& seen);
 
 /// Range of the inverse depths of points that a view sees: robust percentiles (0.5 … 99.5 %),

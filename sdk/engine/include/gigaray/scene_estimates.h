@@ -50,9 +50,14 @@ struct NoiseEstimate {
   /// By how much the mean colour distance over all hypotheses exceeds the least one, relative to
   /// it: median over the pixels.
   double lead = 0;
+  int view = 0;  ///< where it was measured
 };
 
-/// Measures on an 8 px grid of some rows of the centre view. Memory: those rows of all views.
+/// Measures on an 8 px grid of some rows: of the centre view of a line or grid, where it agrees
+/// with others; else, and of posed views, of up to five that are compared with others, the one in
+/// the middle of those that agree with them. Partners that show something else than the rest don't
+/// count. Where no view agrees, there is no noise to see: a message says so. Memory: those rows of
+/// all views; of posed ones 9 whole views at most.
 NoiseEstimate estimate_noise(const LightField& light_field, const HypothesisRange& hypotheses,
                              const RunControl& control);
 
