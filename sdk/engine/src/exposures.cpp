@@ -158,6 +158,9 @@ std::vector<int> nearest_partners(const LightField& light_field, const Unstructu
   return chosen;
 }
 
+/// No picture is made brighter for the sake of one that is brighter than most by more than this.
+constexpr float kBrightest = 0.35f;
+
 /// b is brighter than a by so much.
 struct Difference {
   int a = 0, b = 0;
@@ -181,8 +184,15 @@ std::vector<Exposure> exposures_of(int views, const std::vector<Difference>& dif
   }
   const Eigen::MatrixXd solved = normal.ldlt().solve(right);
   std::vector<Exposure> exposures(views);
-  for (int view = 0; view < views; ++view)
-    for (int c = 0; c < 3; ++c) exposures[view][c] = float(solved(view, c));
+  for (int c = 0; c < 3; ++c) {
+    std::vector<float> sorted;
+    for (int view = 0; view < views; ++view) sorted.push_back(float(solved(view, c)));
+    const float usual = median_of(sorted);
+    const float brightest =
+        std::min(*std::max_element(sorted.begin(), sorted.end()), usual + kBrightest);
+    for (int view = 0; view < views; ++view)
+      exposures[view][c] = float(solved(view, c)) - brightest;
+  }
   return exposures;
 }
 
@@ -244,11 +254,16 @@ std::vector<Exposure> estimate_exposures(const LightField& light_field, const Ru
 }
 
 bool differ(const std::vector<Exposure>& exposures) {
-  constexpr float kNoticed = 0.03f;
-  return std::any_of(exposures.begin(), exposures.end(), [](const Exposure& exposure) {
-    return std::any_of(exposure.begin(), exposure.end(),
-                       [](float value) { return std::abs(value) > kNoticed; });
-  });
+  constexpr float kNoticed = 0.06f;
+  for (int c = 0; c < 3; ++c) {
+    float least = 0, most = 0;
+    for (const Exposure& exposure : exposures) {
+      least = std::min(least, exposure[c]);
+      most = std::max(most, exposure[c]);
+    }
+    if (most - least > kNoticed) return true;
+  }
+  return false;
 }
 
 LightField evened(LightField light_field, std::vector<Exposure> exposures) {

@@ -185,15 +185,13 @@ DepthOptions widest(DepthOptions options) {
 void even_exposures(Prepared& run, const RunControl& control) {
   const std::vector<Exposure> exposures = estimate_exposures(run.light_field, control);
   if (!differ(exposures)) return;
-  float least = 0, most = 0;
-  for (const Exposure& exposure : exposures) {
+  float least = 0;
+  for (const Exposure& exposure : exposures)
     least = std::min(least, *std::min_element(exposure.begin(), exposure.end()));
-    most = std::max(most, *std::max_element(exposure.begin(), exposure.end()));
-  }
   std::ostringstream text;
   text.precision(2);
-  text << "exposures differ, from " << std::exp(least) << " to " << std::exp(most)
-       << " of the mean: evened out before pictures are compared";
+  text << "exposures differ, the darkest picture is " << std::exp(least)
+       << " of the brightest: evened out before pictures are compared";
   control.message(text.str());
   run.light_field = evened(run.light_field, exposures);
 }

@@ -10,17 +10,18 @@
 
 namespace gigaray {
 
-/// How much brighter a picture is than the others show the same: ln of the encoded value, by R, G,
-/// B. Encoded by a power a gain in linear light is one here too.
+/// How much brighter a picture shows the same than the brightest one does (0 or less, unless one
+/// stands out): ln of the encoded value, by R, G, B. Encoded by a power a gain in linear light is
+/// one here too. Relative to the brightest, since what is clipped there is clipped then in all.
 using Exposure = std::array<float, 3>;
 
 /// Exposures of posed photographs from windows of small versions that correlate between each view
-/// and those that stand next to it (normalised cross-correlation does not see a gain), with a mean
-/// of 0 over all views. A view that matches no other has 0. Cameras have their ranges of inverse
-/// depth. Reads every picture once. Throws Error(kCancelled) and what reading pictures throws.
+/// and those that stand next to it: normalised cross-correlation does not see a gain. A view that
+/// matches no other is taken for a usual one. Cameras have their ranges of inverse depth. Reads
+/// every picture once. Throws Error(kCancelled) and what reading pictures throws.
 std::vector<Exposure> estimate_exposures(const LightField& light_field, const RunControl& control);
 
-/// Do they differ by more than their estimates scatter, so that comparing pixels needs to know?
+/// Do they differ by more than their estimates scatter, 0.06, so that comparing pixels should know?
 bool differ(const std::vector<Exposure>& exposures);
 
 /// The same light field with the exposures taken out as a view is read. What is clipped, within a
