@@ -157,7 +157,7 @@ void adapt_to_posed_views(double per_pixel, DepthOptions& options) {
   options.score.gradient_slack = 0.5f;
   options.winner.peak_share = 0.3f;
   // Window and interpolation make a peak a few pixels wide, and no less than three hypotheses.
-  constexpr double kPeak = 4, kWidestPeak = 12;  // px
+  constexpr double kPeak = 4, kWidestPeak = 20;  // px
   options.winner.peak_width = std::max(int(std::lround(kPeak * per_pixel)), 3);
   options.winner.widest_peak = std::max(int(std::lround(kWidestPeak * per_pixel)), 9);
 }

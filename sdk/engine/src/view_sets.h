@@ -15,6 +15,9 @@ namespace gigaray {
 /// Views that a robust score is made of at most, and a first look. More hardly help (half of 81
 /// views: docs/accuracy.md) and each costs the same.
 inline constexpr int kMostViews = 100, kFirstViews = 25;
+/// Of views whose rays go each its own way: samples cost three times as much, and what stands far
+/// away sees less of the same.
+inline constexpr int kMostPosedViews = 32;
 
 /// 1 for `ref` and for about `wanted` views, spread evenly over any order; for all if a few more.
 inline std::vector<std::uint8_t> spread_views(int num_views, int ref, int wanted) {
@@ -68,7 +71,8 @@ std::vector<std::uint8_t> half_planes(const S& sampler, int ref,
 template <RaySampler S>
 std::vector<std::uint8_t> score_members(const S& sampler, int ref, ScoreViews views,
                                         const HypothesisRange& hypotheses) {
-  const int wanted = views == ScoreViews::kFirst ? kFirstViews : kMostViews;
+  const int most = S::kRaysShiftAlike ? kMostViews : kMostPosedViews;
+  const int wanted = views == ScoreViews::kFirst ? kFirstViews : most;
   std::vector<std::uint8_t> members = spread_views(sampler.num_views(), ref, wanted);
   members[ref] = 0;  // it agrees with itself under any hypothesis
   if (views != ScoreViews::kHalfPlanes) return members;

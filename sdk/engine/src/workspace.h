@@ -19,7 +19,7 @@ namespace gigaray {
 
 /// Which views a robust score is made of.
 enum class ScoreViews {
-  kAll,        ///< about 100 of them where there are many more
+  kAll,        ///< about 100 of them where there are many more, of posed ones 32
   kFirst,      ///< about 25: for a first look
   kHalfPlanes  ///< the best of eight halves of kAll
 };
