@@ -109,7 +109,7 @@ TEST_F(Photographs, AloneGetTheirCamerasFromColmap) {
   const Result again = run(once_more + kFast);
   ASSERT_EQ(again.exit_code, 0) << again.err;
   EXPECT_NE(again.err.find("as COLMAP found them before"), std::string::npos) << again.err;
-  expect_refusal(once_more + " --quality best", 2, "--quality", "low, medium, high");
+  expect_refusal(once_more + " --quality best", 2, "--quality", "low, medium or high");
   const Result closer = run(once_more + " --quality high" + kFast);
   ASSERT_EQ(closer.exit_code, 0) << closer.err;
   EXPECT_NE(text_of("out.colmap/colmap.log").find("max_num_features 8192"), std::string::npos);
