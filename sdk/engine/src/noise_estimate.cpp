@@ -15,21 +15,42 @@ using reference::Sample;
 
 constexpr int kGrid = 8;  // px between the pixels that are measured
 
+/// How far one other view is off, of some pixels.
+struct OtherNoise {
+  std::vector<float> colour;  ///< where all agree best
+  double gradient = 0, gradient_elsewhere = 0;
+
+  void add(const OtherNoise& more) {
+    colour.insert(colour.end(), more.colour.begin(), more.colour.end());
+    gradient += more.gradient;
+    gradient_elsewhere += more.gradient_elsewhere;
+  }
+};
+
 /// Of the pixels of one row of the first view.
 struct RowNoise {
   std::vector<float> colour, gradient, lead;
-  std::vector<std::vector<float>> of_others;  ///< colour distance of each where all agree best
+  std::vector<OtherNoise> of_others;
 };
 
-/// Adds how far each other view is off on a ray.
+/// Adds how far each other view is off on a ray of the hypothesis where all agree best, and on one
+/// where they don't.
 template <RaySampler S>
-void add_others(const Band& band, const S& sampler, const Ray& ray, const Sample& own,
-                std::vector<std::vector<float>>& of_others) {
-  for (int other = 1; other < band.num_views; ++other) {
+void add_others(const Band& band, const S& sampler, const Ray& best, const Ray& elsewhere,
+                const Sample& own, std::vector<OtherNoise>& of_others) {
+  const auto gradient_distance = [&](const Sample& sample) {
+    return double(std::hypot(sample[3] - own[3], sample[4] - own[4]));
+  };
+  const auto seen = [&](int other, const Ray& ray) {
     const auto there = sampler.locate(0, other, ray);
-    const auto sample =
-        there ? reference::sample_at(band, other, there->u, there->v, true) : std::nullopt;
-    if (sample) of_others[other].push_back(reference::colour_distance(*sample, own));
+    return there ? reference::sample_at(band, other, there->u, there->v, true) : std::nullopt;
+  };
+  for (int other = 1; other < band.num_views; ++other) {
+    const auto here = seen(other, best), there = seen(other, elsewhere);
+    if (!here || !there) continue;
+    of_others[other].colour.push_back(reference::colour_distance(*here, own));
+    of_others[other].gradient += gradient_distance(*here);
+    of_others[other].gradient_elsewhere += gradient_distance(*there);
   }
 }
 
@@ -56,9 +77,11 @@ RowNoise measure_row(const Band& band, const S& sampler, int v, const Hypothesis
       best.colour = std::min(best.colour, distance->colour);
       best.gradient = std::min(best.gradient, distance->gradient);
     }
-    if (best_hypothesis >= 0)
-      add_others(band, sampler, Ray{double(u), double(v), hypotheses.value(best_hypothesis)}, own,
-                 row.of_others);
+    if (best_hypothesis >= 0) {
+      const int elsewhere = (best_hypothesis + hypotheses.count / 2) % hypotheses.count;
+      add_others(band, sampler, Ray{double(u), double(v), hypotheses.value(best_hypothesis)},
+                 Ray{double(u), double(v), hypotheses.value(elsewhere)}, own, row.of_others);
+    }
     if (tested > 0) row.lead.push_back(sum_of_all / tested / std::max(best.colour, 1e-4f) - 1);
     row.colour.push_back(best.colour);
     row.gradient.push_back(best.gradient);
@@ -73,17 +96,22 @@ struct ViewNoise {
   std::vector<int> strays;   ///< others that show something else than the rest does
 };
 
-/// Others whose pixels are far off where most agree.
-std::vector<int> strays_of(const std::vector<int>& views, std::vector<std::vector<float>> off) {
-  constexpr double kFarOff = 0.1, kTimesMost = 4;
+/// Others whose pixels are far off where most agree, with gradients that fit no better than
+/// anywhere else: pictures of another exposure are far off too, but their gradients fit.
+std::vector<int> strays_of(const std::vector<int>& views, std::vector<OtherNoise>& of_others) {
+  constexpr double kFarOff = 0.1, kTimesMost = 4, kNoBetter = 0.8;
   std::vector<float> medians;
   for (std::size_t other = 1; other < views.size(); ++other)
-    medians.push_back(float(percentile(off[other], 0.5)));
+    medians.push_back(float(percentile(of_others[other].colour, 0.5)));
   std::vector<float> sorted = medians;
   const double most = percentile(sorted, 0.5);
   std::vector<int> strays;
-  for (std::size_t i = 0; i < medians.size(); ++i)
-    if (medians[i] > std::max(kFarOff, kTimesMost * most)) strays.push_back(views[i + 1]);
+  for (std::size_t i = 0; i < medians.size(); ++i) {
+    const OtherNoise& other = of_others[i + 1];
+    if (medians[i] > std::max(kFarOff, kTimesMost * most) &&
+        other.gradient > kNoBetter * other.gradient_elsewhere)
+      strays.push_back(views[i + 1]);
+  }
   return strays;
 }
 
@@ -106,13 +134,12 @@ ViewNoise measure_view(const LightField& light_field, int view, int most_rows,
       },
       [&](int) { control.throw_if_cancelled(); });
   std::vector<float> colour, gradient, lead;
-  std::vector<std::vector<float>> of_others(sampled.views.size());
+  std::vector<OtherNoise> of_others(sampled.views.size());
   for (const RowNoise& row : found) {
     colour.insert(colour.end(), row.colour.begin(), row.colour.end());
     gradient.insert(gradient.end(), row.gradient.begin(), row.gradient.end());
     lead.insert(lead.end(), row.lead.begin(), row.lead.end());
-    for (std::size_t i = 0; i < of_others.size(); ++i)
-      of_others[i].insert(of_others[i].end(), row.of_others[i].begin(), row.of_others[i].end());
+    for (std::size_t i = 0; i < of_others.size(); ++i) of_others[i].add(row.of_others[i]);
   }
   constexpr double kNearCap = 0.9;  // it agrees with nobody
   ViewNoise result;
@@ -120,7 +147,7 @@ ViewNoise measure_view(const LightField& light_field, int view, int most_rows,
                      view};
   result.is_measured =
       !lead.empty() && result.estimate.colour < kNearCap * PixelDistance::kColourCap;
-  result.strays = strays_of(sampled.views, std::move(of_others));
+  result.strays = strays_of(sampled.views, of_others);
   return result;
 }
 
