@@ -21,19 +21,27 @@ constexpr int kRounds = 8;
 /// Keeps the gains of views near 1, in points.
 constexpr double kPrior = 0.05;
 
-/// Mean of the linear light of 3 × 3 px; nothing near the rims and where it is too dark or bright.
-std::optional<std::array<float, 3>> log_light_at(const Image<std::uint8_t>& picture, int u, int v) {
-  if (u < 1 || v < 1 || u + 1 >= picture.width() || v + 1 >= picture.height()) return std::nullopt;
+/// Mean of the linear light around a place, weights falling to 0 at 2 px; nothing near the rims and
+/// where it is too dark or bright.
+std::optional<std::array<float, 3>> log_light_at(const Image<std::uint8_t>& picture, float u,
+                                                 float v) {
+  const int u0 = int(std::floor(u)) - 1, v0 = int(std::floor(v)) - 1;
+  if (u0 < 0 || v0 < 0 || u0 + 3 >= picture.width() || v0 + 3 >= picture.height())
+    return std::nullopt;
   std::array<double, 3> sum{};
-  for (int y = v - 1; y <= v + 1; ++y)
-    for (int x = u - 1; x <= u + 1; ++x)
+  double weights = 0;
+  for (int y = v0; y < v0 + 4; ++y)
+    for (int x = u0; x < u0 + 4; ++x) {
+      const double weight = (2 - std::abs(u - float(x))) * (2 - std::abs(v - float(y)));
       for (int k = 0; k < 3; ++k) {
         const int value = picture(x, y, k);
         if (value < kDarkest || value > kBrightest) return std::nullopt;
-        sum[k] += linear_from_srgb(value / 255.0);
+        sum[k] += weight * linear_from_srgb(value / 255.0);
       }
+      weights += weight;
+    }
   std::array<float, 3> result{};
-  for (int k = 0; k < 3; ++k) result[k] = float(std::log(sum[k] / 9));
+  for (int k = 0; k < 3; ++k) result[k] = float(std::log(sum[k] / weights));
   return result;
 }
 
@@ -49,8 +57,7 @@ void Exposures::look(int view, const MeshSight& sight, const Image<std::uint8_t>
     const auto vertex = std::uint32_t(i * step_);
     if (!sight.sees_vertex(vertex)) continue;
     const Eigen::Vector3f& place = sight.places()[vertex];
-    const auto light =
-        log_light_at(picture, int(std::lround(place.x())), int(std::lround(place.y())));
+    const auto light = log_light_at(picture, place.x(), place.y());
     if (light) points_[i].push_back({view, *light});
   }
 }

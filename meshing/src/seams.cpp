@@ -14,9 +14,9 @@ namespace gigaray {
 namespace {
 
 constexpr double kSeam = 10;               ///< weight of a seam against that of an edge
-constexpr double kFade = 1.0 / (40 * 40);  ///< offsets fade over some 40 edges
-/// Both sides of a seam that differ more show other things.
-constexpr double kMostJump = 60;
+constexpr double kFade = 1.0 / (20 * 20);  ///< offsets fade over some 20 edges
+/// Sides that differ by more show other things as a rule: exposures are alike already.
+constexpr double kUsualJump = 12;
 constexpr int kMostRounds = 400;
 constexpr double kExact = 1e-3;
 
@@ -117,10 +117,11 @@ class Leveller {
       entries.emplace_back(i, i, kFade);
       for (std::uint32_t k = nodes_[i].next; k != kNoFace; k = nodes_[k].next) {
         const Eigen::Vector3d jump = colour(nodes_[k]) - colour(nodes_[i]);
-        if (jump.cwiseAbs().maxCoeff() > kMostJump) continue;
-        tie(i, k, kSeam);
-        right.row(i) += kSeam * jump.transpose();
-        right.row(k) -= kSeam * jump.transpose();
+        const double gap = jump.cwiseAbs().maxCoeff() / kUsualJump;
+        const double weight = kSeam / (1 + gap * gap * gap * gap);
+        tie(i, k, weight);
+        right.row(i) += weight * jump.transpose();
+        right.row(k) -= weight * jump.transpose();
       }
     }
     for (const auto& corners : node_of_corner_)

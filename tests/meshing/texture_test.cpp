@@ -168,7 +168,7 @@ TEST(Texture, LevelsTwoExposures) {
   EXPECT_LT(mean_jump(mesh, texture, &seams), 2);
   EXPECT_GT(counts.views, 3);
   // Between the two exposures: their geometric mean is 0.63.
-  EXPECT_NEAR(counts.largest_gain, std::sqrt(0.8 / 0.5), 0.1);
+  EXPECT_NEAR(counts.largest_gain, std::sqrt(0.8 / 0.5), 0.05);
   const Paint between = [](const Eigen::Vector3d& x) -> Eigen::Array3d {
     return stripes(x).unaryExpr([](double value) {
       return 255 * srgb_from_linear(std::sqrt(0.8 * 0.5) * linear_from_srgb(value / 255));
