@@ -22,15 +22,15 @@ using Corners = std::vector<std::array<Eigen::Vector2f, 3>>;
 constexpr int kMargin = 2;
 constexpr double kLeastScale = 0.05;
 
-PixelBox joined(const PixelBox& a, const PixelBox& b) {
+AtlasBox joined(const AtlasBox& a, const AtlasBox& b) {
   return {std::min(a.u0, b.u0), std::min(a.v0, b.v0), std::max(a.u1, b.u1), std::max(a.v1, b.v1)};
 }
 
-bool overlap(const PixelBox& a, const PixelBox& b) {
+bool overlap(const AtlasBox& a, const AtlasBox& b) {
   return a.u0 < b.u1 && b.u0 < a.u1 && a.v0 < b.v1 && b.v0 < a.v1;
 }
 
-PixelBox box_of(const std::array<Eigen::Vector2f, 3>& corners, const Camera& camera) {
+AtlasBox box_of(const std::array<Eigen::Vector2f, 3>& corners, const Camera& camera) {
   const auto [left, right] = std::minmax({corners[0].x(), corners[1].x(), corners[2].x()});
   const auto [top, bottom] = std::minmax({corners[0].y(), corners[1].y(), corners[2].y()});
   return {std::max(0, int(std::floor(left)) - kMargin), std::max(0, int(std::floor(top)) - kMargin),
@@ -40,7 +40,7 @@ PixelBox box_of(const std::array<Eigen::Vector2f, 3>& corners, const Camera& cam
 
 /// Boxes with the charts in them.
 struct Group {
-  PixelBox box;
+  AtlasBox box;
   std::vector<std::uint32_t> charts;
 };
 
@@ -73,7 +73,7 @@ struct Size {
 };
 
 /// Shelves of boxes, the highest first: where each goes, and how high all are together.
-int shelve(const std::vector<Size>& sizes, int width, std::vector<PixelBox>& places) {
+int shelve(const std::vector<Size>& sizes, int width, std::vector<AtlasBox>& places) {
   std::vector<std::size_t> order(sizes.size());
   std::iota(order.begin(), order.end(), std::size_t(0));
   std::ranges::stable_sort(order, std::greater(), [&](std::size_t i) { return sizes[i].height; });
@@ -110,7 +110,7 @@ bool pack(Atlas& atlas, int most_px) {
     area += double(size.width) * size.height;
     widest = std::max(widest, size.width);
   }
-  std::vector<PixelBox> places;
+  std::vector<AtlasBox> places;
   for (double width = std::max<double>(widest, std::sqrt(area));; width *= 1.05) {
     atlas.width = std::min(most_px, int(std::ceil(width)));
     if (widest > atlas.width) return false;
@@ -147,14 +147,14 @@ void add_patches(const SurfaceMesh& mesh, const std::vector<int>& view_of_face, 
 
 void add_crops(const std::vector<Camera>& cameras, const std::vector<int>& view_of_face,
                const std::vector<std::uint32_t>& charts, const Corners& in_picture, Atlas& atlas) {
-  std::vector<std::optional<PixelBox>> boxes(std::size_t(std::ranges::max(charts)) + 1);
+  std::vector<std::optional<AtlasBox>> boxes(std::size_t(std::ranges::max(charts)) + 1);
   std::vector<int> view_of_chart(boxes.size(), -1);
   for (std::size_t face = 0; face < charts.size(); ++face) {
     const int view = view_of_face[face];
     if (view < 0) continue;
     view_of_chart[charts[face]] = view;
-    const PixelBox box = box_of(in_picture[face], cameras[std::size_t(view)]);
-    std::optional<PixelBox>& all = boxes[charts[face]];
+    const AtlasBox box = box_of(in_picture[face], cameras[std::size_t(view)]);
+    std::optional<AtlasBox>& all = boxes[charts[face]];
     all = all ? joined(*all, box) : box;
   }
   std::vector<std::vector<Group>> groups(cameras.size());

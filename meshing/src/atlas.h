@@ -12,7 +12,7 @@
 namespace gigaray {
 
 /// Pixels [u0, u1) × [v0, v1).
-struct PixelBox {
+struct AtlasBox {
   int u0 = 0, v0 = 0, u1 = 0, v1 = 0;
   int width() const { return u1 - u0; }
   int height() const { return v1 - v0; }
@@ -21,8 +21,8 @@ struct PixelBox {
 /// A part of a picture and where it goes.
 struct Crop {
   int view = 0;
-  PixelBox from;
-  PixelBox to;  ///< in the atlas, scaled
+  AtlasBox from;
+  AtlasBox to;  ///< in the atlas, scaled
 };
 
 /// An atlas of crops of pictures, and of flat patches for faces that no view sees.
@@ -31,7 +31,7 @@ struct Atlas {
   int width = 0, height = 0;
   std::vector<Crop> crops;
   std::vector<Rgb8> patches;  ///< colours; squares of kPatch px in rows, in `patch_box`
-  PixelBox patch_box;
+  AtlasBox patch_box;
   std::vector<std::uint32_t> place_of_face;  ///< index of its crop, or of its patch
 
   static constexpr int kPatch = 8;
