@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "command.h"
@@ -14,6 +15,7 @@
 #include "gigaray/meshing/grid_mesh.h"
 #include "gigaray/meshing/mesh_processing.h"
 #include "gigaray/meshing/mesh_report.h"
+#include "gigaray/meshing/texture.h"
 #include "memory_option.h"
 #include "numbers.h"
 #include "output_option.h"
@@ -35,6 +37,8 @@ struct Settings {
   std::size_t most_points = 300'000;
   double trim = PoissonOptions{}.trim;
   MeshCleaning cleaning;
+  bool is_textured = false;
+  TextureOptions texture;
   MemoryBudget memory;
   bool json = false;
 };
@@ -89,6 +93,23 @@ double bytes_of_surface(const SurfaceMesh& mesh) {
          kFaceBytes * double(mesh.faces.size());
 }
 
+/// What making and writing a texture takes beside the surface.
+double bytes_of_texture(const Settings& settings, const DepthViews& views,
+                        const SurfaceMesh& mesh) {
+  // The atlas, offsets and masks of it, and its JPEG; an atlas is no larger than all pictures.
+  constexpr double kTexel = 9;
+  double pixels = 0, most = 0;
+  for (const Camera& camera : views.cameras) {
+    pixels += 1.1 * camera.width * camera.height;
+    most = std::max(most, double(camera.width) * camera.height);
+  }
+  const double texels =
+      std::min(pixels, double(settings.texture.most_px) * settings.texture.most_px);
+  return bytes_of_surface(mesh) + SurfaceInput::view_bytes(most, views.size()) + 8 * most +
+         (150.0 + views.size()) * double(mesh.faces.size()) +
+         400.0 * double(mesh.positions.size()) + kTexel * texels;
+}
+
 ordered_json report_json(const MeshReport& report) {
   const auto list = [](const Eigen::Vector3f& v) { return std::vector<float>{v[0], v[1], v[2]}; };
   return {{"vertices", report.vertices},
@@ -104,6 +125,28 @@ ordered_json report_json(const MeshReport& report) {
           {"box", {list(report.least), list(report.most)}}};
 }
 
+ordered_json texture_json(const SurfaceTexture& texture, const TextureCounts& counts) {
+  return {{"size", {texture.picture.width(), texture.picture.height()}},
+          {"scale", counts.scale},
+          {"views", counts.views},
+          {"charts", counts.charts},
+          {"largest_gain", counts.largest_gain},
+          {"faces_unseen", counts.unseen},
+          {"area_unseen", counts.unseen_area}};
+}
+
+void print_texture(const SurfaceTexture& texture, const TextureCounts& counts) {
+  fmt::print("texture       {} × {} px of {} views in {} charts, gains up to {:.3g}\n",
+             texture.picture.width(), texture.picture.height(), counts.views, counts.charts,
+             counts.largest_gain);
+  if (counts.scale < 1)
+    fmt::print("scaled down   to {:.3g} of the pictures, to fit into --texture-size\n",
+               counts.scale);
+  if (counts.unseen > 0)
+    fmt::print("unseen        {} faces, {:.2g} % of the area, have the colours of their vertices\n",
+               counts.unseen, 100 * counts.unseen_area);
+}
+
 void print_report(const MeshReport& report) {
   fmt::print("surface       {} vertices, {} faces, {} components\n", report.vertices, report.faces,
              report.components);
@@ -116,9 +159,43 @@ void print_report(const MeshReport& report) {
              report.least.y(), report.least.z(), report.most.x(), report.most.y(), report.most.z());
 }
 
+/// The file of a surface, or the files of a textured one.
+class Output {
+ public:
+  explicit Output(const Settings& settings) : path_(settings.output.path) {
+    const OutputRules rules = settings.input.rules(settings.output);
+    if (!settings.is_textured)
+      plain_.emplace(path_, rules,
+                     std::initializer_list<const char*>{".ply", ".obj", ".glb", ".stl"});
+    else if (can_have_texture(path_))
+      textured_.emplace(path_, rules);
+    else
+      throw Error(ErrorCode::kInvalidArgument,
+                  path_.string() + ": a surface with --texture is written as .glb or .obj");
+  }
+
+  void write(const SurfaceMesh& mesh, const SurfaceTexture& texture) {
+    if (textured_)
+      textured_->write(mesh, texture);
+    else
+      write_mesh(*plain_, path_, mesh);
+  }
+
+  void commit(const RunControl& control) {
+    if (textured_)
+      textured_->commit(control);
+    else
+      plain_->commit(control);
+  }
+
+ private:
+  std::filesystem::path path_;
+  std::optional<AtomicFile> plain_;
+  std::optional<TexturedMeshOutput> textured_;
+};
+
 void run(const Settings& settings, const RunControl& control) {
-  AtomicFile file(settings.output.path, settings.input.rules(settings.output),
-                  {".ply", ".obj", ".glb", ".stl"});
+  Output output(settings);
   const auto begin = std::chrono::steady_clock::now();
   const DepthViews views = settings.input.open(control);
   settings.memory.require(bytes_before_surface(settings, views), text_of(views));
@@ -137,22 +214,31 @@ void run(const Settings& settings, const RunControl& control) {
                     settings.input.result.string(), settings.cleaning.least_faces));
   control.throw_if_cancelled();
   const MeshReport report = report_of(mesh);
-  write_mesh(file, settings.output.path, mesh);
-  file.commit(control);
+  TextureCounts texture_counts;
+  SurfaceTexture texture;
+  if (settings.is_textured) {
+    settings.memory.require(bytes_of_texture(settings, views, mesh),
+                            fmt::format("a texture of {} triangles", mesh.faces.size()));
+    texture = settings.input.blamed(
+        [&] { return texture_of(mesh, views, settings.texture, &texture_counts, control); });
+  }
+  output.write(mesh, texture);
+  output.commit(control);
   const double seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 
   if (settings.json) {
-    const ordered_json root{{"format", "gigaray mesh"},
-                            {"version", 1},
-                            {"file", path_text(settings.output.path)},
-                            {"method", settings.method},
-                            {"filters", as_json(counts)},
-                            {"pieces_dropped", done.pieces_dropped},
-                            {"holes_filled", done.holes_filled},
-                            {"mesh", report_json(report)},
-                            {"origin", origin_json(mesh.origin)},
-                            {"seconds", seconds}};
+    ordered_json root{{"format", "gigaray mesh"},
+                      {"version", 1},
+                      {"file", path_text(settings.output.path)},
+                      {"method", settings.method},
+                      {"filters", as_json(counts)},
+                      {"pieces_dropped", done.pieces_dropped},
+                      {"holes_filled", done.holes_filled},
+                      {"mesh", report_json(report)},
+                      {"origin", origin_json(mesh.origin)},
+                      {"seconds", seconds}};
+    if (settings.is_textured) root["texture"] = texture_json(texture, texture_counts);
     fmt::print("{}\n", root.dump(2));
     return;
   }
@@ -162,6 +248,7 @@ void run(const Settings& settings, const RunControl& control) {
                settings.cleaning.least_faces);
   if (settings.cleaning.hole_edges > 0) fmt::print("holes         {} filled\n", done.holes_filled);
   print_report(report);
+  if (settings.is_textured) print_texture(texture, texture_counts);
   print_origin(mesh.origin);
   fmt::print("{}: {} in {:.1f} s\n", settings.output.path.string(), settings.method, seconds);
 }
@@ -204,6 +291,16 @@ Run mesh_command(CLI::App& app) {
                  "Collapse edges until so many triangles are left")
       ->check(CLI::Range(std::size_t(4), std::size_t(4'000'000'000)))
       ->type_name("FACES");
+  auto* texture = app.add_flag(
+      "--texture", settings->is_textured,
+      "Colours from the pictures, each triangle from a view that sees it well, with "
+      "exposures and seams levelled: in the .glb, or as .mtl and .jpg beside the .obj");
+  app.add_option("--texture-size", settings->texture.most_px,
+                 "Width and height of the texture at most; pictures are scaled down to fit")
+      ->check(CLI::Range(64, 32768))
+      ->type_name("PX")
+      ->needs(texture)
+      ->capture_default_str();
   settings->memory.add_to(app,
                           "some 70 bytes per pixel of all views, and 450 per vertex of the "
                           "surface, whose size shows only when it is there");

@@ -194,14 +194,24 @@ void AtomicFile::write_at_begin(std::string_view bytes) {
   if (std::fseek(state_->file, 0, SEEK_END) != 0) state_->fail();
 }
 
-void AtomicFile::commit(const RunControl& control) {
-  state_->make_durable();
-  const bool moves_older = !state_->goes_through && state_->look();
+void AtomicFile::commit(const RunControl& control) { commit_together({this, 1}, control); }
+
+void AtomicFile::commit_together(std::span<AtomicFile> files, const RunControl& control) {
+  std::vector<bool> moves_older;
+  for (AtomicFile& file : files) {
+    State& state = *file.state_;
+    state.make_durable();
+    moves_older.push_back(!state.goes_through && state.look());
+    if (!state.goes_through && files.size() > 1) state.give_name();
+  }
   control.keep_result();
-  if (state_->goes_through)
-    state_->write_through();
-  else
-    state_->put_in_place(moves_older);
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    State& state = *files[i].state_;
+    if (state.goes_through)
+      state.write_through();
+    else
+      state.put_in_place(moves_older[i]);
+  }
 }
 
 void write_file_atomically(const fs::path& path, std::string_view bytes) {

@@ -40,19 +40,20 @@ float linear(std::uint8_t srgb) {
   return float(value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4));
 }
 
-std::string completed(std::string_view bytes, const Eigen::Vector3d& origin) {
+std::string completed(std::string_view bytes, const Eigen::Vector3d& origin, Shown shown) {
   using json = nlohmann::ordered_json;
   const std::size_t begin = kHead + kChunkHead, length = number_at(bytes, kHead);
   GIGARAY_CHECK(begin + length <= bytes.size());
   json root = json::parse(bytes.substr(begin, length));
   root["extensionsUsed"] = {"KHR_materials_unlit"};
+  const bool is_textured = shown == Shown::kTexture;
+  json surface = {{"baseColorFactor", {1, 1, 1, 1}}, {"metallicFactor", 0}, {"roughnessFactor", 1}};
+  if (is_textured) surface["baseColorTexture"] = {{"index", 0}};
   for (json& material : root.at("materials"))
-    material = {
-        {"name", "colours of the vertices"},
-        {"pbrMetallicRoughness",
-         {{"baseColorFactor", {1, 1, 1, 1}}, {"metallicFactor", 0}, {"roughnessFactor", 1}}},
-        {"doubleSided", true},
-        {"extensions", {{"KHR_materials_unlit", json::object()}}}};
+    material = {{"name", is_textured ? "photographs" : "colours of the vertices"},
+                {"pbrMetallicRoughness", surface},
+                {"doubleSided", true},
+                {"extensions", {{"KHR_materials_unlit", json::object()}}}};
   if (!origin.isZero(0)) {
     const auto node = root.at("scenes").at(0).at("nodes").at(0).get<std::size_t>();
     root.at("nodes").at(node)["extras"]["origin"] = {origin.x(), origin.y(), origin.z()};

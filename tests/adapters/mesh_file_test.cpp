@@ -2,8 +2,12 @@
 // Copyright (c) 2026 The Gigaray authors
 #include "gigaray/adapters/mesh_file.h"
 
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+#include <assimp/Importer.hpp>
 #include <cstring>
 #include <nlohmann/json.hpp>
+#include <opencv2/imgcodecs.hpp>
 
 #include "adapters/adapters_test.h"
 #include "gigaray/adapters/cloud_file.h"
@@ -187,6 +191,130 @@ TEST_F(MeshFile, CloudAsPcdHasTheFieldsOfPcl) {
   std::uint32_t rgb = 0;
   std::memcpy(&rgb, pcd.data() + body + 8 * sizeof(float), sizeof rgb);
   EXPECT_EQ(rgb, 0x010203u);
+}
+
+/// Two triangles with a common edge, whose sides lie apart in the texture: red and green at the top
+/// of the picture, blue at its bottom.
+struct Textured {
+  SurfaceMesh mesh;
+  SurfaceTexture texture;
+};
+Textured textured_square() {
+  Textured result;
+  result.mesh.positions = {{0, 0, 3}, {0, 1, 3}, {1, 1, 3}, {1, 0, 3}};
+  result.mesh.normals.resize(4, Eigen::Vector3f(0, 0, -1));
+  result.mesh.colours.resize(4, Rgb8{9, 9, 9});
+  result.mesh.faces = {{0, 1, 2}, {0, 2, 3}};
+  result.texture.picture = Image<std::uint8_t>(32, 48, 3);
+  for (int v = 0; v < 48; ++v)
+    for (int u = 0; u < 32; ++u) result.texture.picture(u, v, v >= 24 ? 2 : u < 16 ? 0 : 1) = 250;
+  result.texture.corners = {{Eigen::Vector2f(0.125f, 0.125f), Eigen::Vector2f(0.125f, 0.25f),
+                             Eigen::Vector2f(0.25f, 0.25f)},
+                            {Eigen::Vector2f(0.75f, 0.75f), Eigen::Vector2f(0.875f, 0.75f),
+                             Eigen::Vector2f(0.875f, 0.875f)}};
+  return result;
+}
+
+/// The colour of a decoded picture at a place whose v points up.
+cv::Vec3b colour_at(const cv::Mat& bgr, const aiVector3D& place) {
+  return bgr.at<cv::Vec3b>(int((1 - place.y) * float(bgr.rows)), int(place.x * float(bgr.cols)));
+}
+
+/// What another program finds of the square: colours at the corners of both triangles.
+void expect_square(const aiScene* scene, const cv::Mat& picture) {
+  ASSERT_NE(scene, nullptr);
+  ASSERT_EQ(scene->mNumMeshes, 1u);
+  const aiMesh& mesh = *scene->mMeshes[0];
+  ASSERT_EQ(mesh.mNumFaces, 2u);
+  EXPECT_EQ(mesh.mNumVertices, 6u);  // none is shared over the seam
+  ASSERT_TRUE(mesh.HasTextureCoords(0));
+  EXPECT_FALSE(mesh.HasVertexColors(0));
+  ASSERT_EQ(picture.size(), cv::Size(32, 48));
+  for (unsigned face = 0; face < 2; ++face)
+    for (unsigned i = 0; i < 3; ++i) {
+      const unsigned corner = mesh.mFaces[face].mIndices[i];
+      const aiVector3D& place = mesh.mTextureCoords[0][corner];
+      const cv::Vec3b colour = colour_at(picture, place);
+      EXPECT_GT(colour[face == 0 ? 2 : 0], 230) << face << " " << i;
+      EXPECT_LT(colour[face == 0 ? 0 : 2], 25) << face << " " << i;
+    }
+}
+
+cv::Mat decoded(const std::string& bytes) {
+  return cv::imdecode(std::vector<unsigned char>(bytes.begin(), bytes.end()), cv::IMREAD_COLOR);
+}
+
+TEST_F(MeshFile, TexturedGlbHasItsPictureInside) {
+  const Textured square = textured_square();
+  TexturedMeshOutput output(folder / "a.glb", {});
+  output.write(square.mesh, square.texture);
+  EXPECT_FALSE(std::filesystem::exists(folder / "a.glb"));
+  output.commit();
+  const json root = Glb(read("a.glb")).root;
+  const json& material = root.at("materials").at(0);
+  EXPECT_EQ(material.at("pbrMetallicRoughness").at("baseColorTexture").at("index"), 0);
+  EXPECT_EQ(material.at("pbrMetallicRoughness").at("metallicFactor"), 0);
+  EXPECT_TRUE(material.at("extensions").contains("KHR_materials_unlit"));
+  EXPECT_EQ(root.at("images").at(0).at("mimeType"), "image/jpeg");
+  const json& attributes = root.at("meshes").at(0).at("primitives").at(0).at("attributes");
+  EXPECT_TRUE(attributes.contains("TEXCOORD_0"));
+  EXPECT_FALSE(attributes.contains("COLOR_0"));
+
+  Assimp::Importer importer;
+  const aiScene* scene = importer.ReadFile((folder / "a.glb").string(), 0);
+  ASSERT_NE(scene, nullptr) << importer.GetErrorString();
+  ASSERT_EQ(scene->mNumTextures, 1u);
+  const aiTexture& picture = *scene->mTextures[0];
+  expect_square(scene, decoded({reinterpret_cast<const char*>(picture.pcData), picture.mWidth}));
+}
+
+TEST_F(MeshFile, TexturedObjHasItsMaterialAndPictureBesideIt) {
+  Textured square = textured_square();
+  square.mesh.origin = {500123.25, 4649776.5, -0.1};
+  const std::vector<std::string> names{"a b.jpg", "a b.mtl", "a b.obj"};
+  for (int round = 0; round < 2; ++round) {  // the second time in place of the first
+    TexturedMeshOutput output(folder / "a b.obj", {});
+    output.write(square.mesh, square.texture);
+    for (const std::string& name : names)
+      EXPECT_EQ(std::filesystem::exists(folder / name), round == 1);
+    output.commit();
+    ASSERT_EQ(output.paths().size(), 3u);
+    for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(output.paths()[i], folder / names[i]);
+  }
+  const std::string obj = read("a b.obj");
+  EXPECT_EQ(obj.find("# origin 500123.25 4649776.5 -0.1\n"), 0u);
+  EXPECT_NE(obj.find("\nmtllib a b.mtl\n"), std::string::npos) << obj;
+  EXPECT_NE(read("a b.mtl").find("map_Kd a b.jpg\n"), std::string::npos) << read("a b.mtl");
+  Assimp::Importer importer;
+  const aiScene* scene = importer.ReadFile((folder / "a b.obj").string(), 0);
+  ASSERT_NE(scene, nullptr) << importer.GetErrorString();
+  expect_square(scene, decoded(read("a b.jpg")));
+  aiString file;
+  const aiMesh& mesh = *scene->mMeshes[0];
+  ASSERT_EQ(scene->mMaterials[mesh.mMaterialIndex]->GetTexture(aiTextureType_DIFFUSE, 0, &file),
+            aiReturn_SUCCESS);
+  EXPECT_STREQ(file.C_Str(), "a b.jpg");
+}
+
+TEST_F(MeshFile, AForeignFileBesideATexturedObjIsKept) {
+  write("a.mtl", "mine");
+  expect_error(ErrorCode::kInvalidArgument, "a.mtl",
+               [&] { TexturedMeshOutput(folder / "a.obj", {}); });
+  const Textured square = textured_square();
+  TexturedMeshOutput output(folder / "a.obj", {.inputs = {}, .replace = true});
+  output.write(square.mesh, square.texture);
+  output.commit();
+  EXPECT_EQ(read("a.mtl.old-1"), "mine");
+  RunControl cancelled;
+  cancelled.cancel();
+  TexturedMeshOutput stopped(folder / "b.obj", {});
+  stopped.write(square.mesh, square.texture);
+  expect_error(ErrorCode::kCancelled, "stopped", [&] { stopped.commit(cancelled); });
+  for (const char* name : {"b.obj", "b.mtl", "b.jpg"})
+    EXPECT_FALSE(std::filesystem::exists(folder / name)) << name;
+  for (const char* name : {"c.ply", "c.stl"})
+    expect_error(ErrorCode::kInvalidArgument, ".glb and .obj",
+                 [&] { TexturedMeshOutput(folder / name, {}); });
 }
 
 }  // namespace

@@ -96,6 +96,36 @@ TEST_F(SurfaceCommands, MeshOfEveryMethodAndFormat) {
   EXPECT_EQ(stl.size(), 84 + 50 * std::size_t(triangles));
 }
 
+TEST_F(SurfaceCommands, TextureIsInTheGlbOrBesideTheObj) {
+  const Result glb = run("mesh depth --texture --json -o scene.glb");
+  ASSERT_EQ(glb.exit_code, 0) << glb.err;
+  const json texture = json::parse(glb.out).at("texture");
+  EXPECT_GT(texture.at("views"), 0);
+  EXPECT_GT(texture.at("charts"), 0);
+  EXPECT_EQ(texture.at("scale"), 1);
+  EXPECT_LT(texture.at("area_unseen"), 0.05);
+  EXPECT_NE(text_of("scene.glb").find("baseColorTexture"), std::string::npos);
+  const Result obj = run("mesh depth --texture --texture-size 64 --method poisson -o scene.obj");
+  ASSERT_EQ(obj.exit_code, 0) << obj.err;
+  EXPECT_NE(obj.out.find("texture  "), std::string::npos) << obj.out;
+  EXPECT_NE(text_of("scene.obj").find("mtllib scene.mtl"), std::string::npos);
+  EXPECT_NE(text_of("scene.mtl").find("map_Kd scene.jpg"), std::string::npos);
+  EXPECT_EQ(text_of("scene.jpg").substr(0, 3), "\xff\xd8\xff");
+  EXPECT_EQ(run("mesh depth --texture -o scene.obj").exit_code, 0);  // in place of its own files
+}
+
+TEST_F(SurfaceCommands, WhatHasNoTextureIsOneLine) {
+  expect_refusal("mesh depth --texture -o a.ply", 2, "--texture is written as .glb or .obj");
+  expect_refusal("mesh depth --texture -o a.stl", 2, "--texture is written as .glb or .obj");
+  expect_refusal("mesh depth --texture-size 512 -o a.glb", 2, "--texture");
+  expect_refusal("mesh depth --texture --texture-size 8 -o a.glb", 2, "--texture-size");
+  fs::rename(folder / "made", folder / "moved");
+  expect_refusal("mesh depth --texture -o a.obj", 1, "--input");
+  for (const char* name : {"a.glb", "a.obj", "a.mtl", "a.jpg"})
+    EXPECT_FALSE(fs::exists(folder / name)) << name;
+  EXPECT_EQ(run("mesh depth --texture --input moved -o a.glb").exit_code, 0);
+}
+
 TEST_F(SurfaceCommands, SimplifiedAndFilled) {
   const json mesh = json::parse(run("mesh depth --json -o a.ply --simplify 800 --fill 12").out);
   EXPECT_LE(mesh.at("mesh").at("faces"), 900);

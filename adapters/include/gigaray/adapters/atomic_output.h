@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <initializer_list>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -51,6 +52,11 @@ class AtomicFile {
   /// Puts the file in its place, on disk for good. Throws Error(kCancelled) when the run was
   /// cancelled before, never once it is in place.
   void commit(const RunControl& control = RunControl());
+
+  /// The same for files that belong together: all are on disk before the first is put in its place,
+  /// and then they follow each other in their order, name by name. Put the one that names the
+  /// others last.
+  static void commit_together(std::span<AtomicFile> files, const RunControl& control);
 
  private:
   struct State;

@@ -25,6 +25,10 @@ void write_png(const std::filesystem::path& path, const Image<std::uint16_t>& pi
 /// The same as bytes of a file.
 std::string png_bytes(const Image<std::uint16_t>& picture, int bit_depth);
 
+/// A JPEG with full colour resolution as bytes of a file. picture: RGB; quality 1 … 100. Throws
+/// Error(kInvalidArgument) for a picture with more than 65,500 px on a side.
+std::string jpeg_bytes(const Image<std::uint8_t>& picture, int quality);
+
 /// Reads any picture that a light field may be made of: RGB (v, u, c); grey is repeated, alpha is
 /// dropped, the orientation of the camera is applied. bit_depth, if given, becomes 8 or 16.
 /// Throws Error(kBadInput) naming the file when it is damaged, cut short, no picture or takes more
