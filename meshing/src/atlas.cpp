@@ -123,25 +123,32 @@ bool pack(Atlas& atlas, int most_px) {
   return true;
 }
 
-/// 16 shades per channel.
-Rgb8 rounded_colour(const SurfaceMesh& mesh, std::size_t face) {
+/// The mean colour of the corners in steps of `step`, which divides 255.
+Rgb8 rounded_colour(const SurfaceMesh& mesh, std::size_t face, int step) {
   Rgb8 result{};
   for (std::size_t k = 0; k < 3; ++k) {
     int sum = 0;
     for (const std::uint32_t corner : mesh.faces[face]) sum += mesh.colours[corner][k];
-    result[k] = std::uint8_t((sum / 3 + 8) / 17 * 17);
+    result[k] = std::uint8_t((sum / 3 + step / 2) / step * step);
   }
   return result;
 }
 
-void add_patches(const SurfaceMesh& mesh, const std::vector<int>& view_of_face, Atlas& atlas) {
-  std::map<Rgb8, std::uint32_t> index;
-  for (std::size_t face = 0; face < view_of_face.size(); ++face) {
-    if (view_of_face[face] >= 0) continue;
-    const auto [found, is_new] =
-        index.emplace(rounded_colour(mesh, face), std::uint32_t(atlas.patches.size()));
-    if (is_new) atlas.patches.push_back(found->first);
-    atlas.place_of_face[face] = found->second;
+/// As many shades as fit into a quarter of the largest atlas.
+void add_patches(const SurfaceMesh& mesh, const std::vector<int>& view_of_face, int most_px,
+                 Atlas& atlas) {
+  for (const int step : {17, 51, 85, 255}) {
+    std::map<Rgb8, std::uint32_t> index;
+    atlas.patches.clear();
+    for (std::size_t face = 0; face < view_of_face.size(); ++face) {
+      if (view_of_face[face] >= 0) continue;
+      const auto [found, is_new] =
+          index.emplace(rounded_colour(mesh, face, step), std::uint32_t(atlas.patches.size()));
+      if (is_new) atlas.patches.push_back(found->first);
+      atlas.place_of_face[face] = found->second;
+    }
+    const double area = double(atlas.patches.size()) * Atlas::kPatch * Atlas::kPatch;
+    if (area <= 0.25 * most_px * most_px) break;
   }
 }
 
@@ -200,13 +207,13 @@ Atlas plan_atlas(const SurfaceMesh& mesh, const std::vector<Camera>& cameras,
   Atlas atlas;
   atlas.place_of_face.resize(view_of_face.size());
   add_crops(cameras, view_of_face, charts, in_picture, atlas);
-  add_patches(mesh, view_of_face, atlas);
+  add_patches(mesh, view_of_face, most_px, atlas);
   while (!pack(atlas, most_px)) {
     atlas.scale *= 0.97;
     if (atlas.scale < kLeastScale)
       throw Error(ErrorCode::kBadInput, std::to_string(atlas.crops.size()) +
                                             " pieces of pictures don't fit into a texture of " +
-                                            std::to_string(most_px) + " px");
+                                            std::to_string(most_px) + " px; take a larger one");
   }
   return atlas;
 }
