@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "exposures.h"
+#include "view_gains.h"
 #include "gigaray/surface_mesh.h"
 #include "gigaray/surface_texture.h"
 

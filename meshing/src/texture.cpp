@@ -8,11 +8,11 @@
 #include <string>
 
 #include "atlas.h"
-#include "exposures.h"
 #include "gigaray/error.h"
 #include "mesh_sight.h"
 #include "seams.h"
 #include "view_choice.h"
+#include "view_gains.h"
 
 namespace gigaray {
 namespace {
@@ -73,13 +73,13 @@ SurfaceTexture texture_of(const SurfaceMesh& mesh, const DepthViews& views,
   check(mesh, options);
   const float tolerance = SurfaceTolerance::of(survey(views, control).range).between_views;
   FaceQualities qualities(views.size(), mesh.faces.size());
-  Exposures exposures(mesh, views.size());
+  ViewGains view_gains(mesh, views.size());
   for (int view = 0; view < views.size(); ++view) {
     control.progress("look", view, views.size());
     const DepthView own = views.read(view);
     const MeshSight sight(mesh, own, tolerance);
     qualities.set(view, sight.qualities());
-    if (options.levels_seams) exposures.look(view, sight, own.picture);
+    if (options.levels_seams) view_gains.look(view, sight, own.picture);
   }
   control.progress("look", 1, 1);
 
@@ -93,7 +93,7 @@ SurfaceTexture texture_of(const SurfaceMesh& mesh, const DepthViews& views,
   const Corners in_pictures = corners_in_pictures(mesh, views.cameras, chosen, used);
   const Atlas atlas = plan_atlas(mesh, views.cameras, chosen, charts, in_pictures, options.most_px);
   std::vector<Eigen::Array3d> gains(views.cameras.size(), Eigen::Array3d::Ones());
-  if (options.levels_seams) gains = exposures.gains();
+  if (options.levels_seams) gains = view_gains.gains();
 
   SurfaceTexture texture{Image<std::uint8_t>(atlas.width, atlas.height, 3, kGrey),
                          corners_in(atlas, chosen, in_pictures)};

@@ -103,6 +103,16 @@ UnstructuredSampler::UnstructuredSampler(const std::vector<Camera>& cameras, int
     partners_.push_back(choose_partners(cameras, ref, most_partners));
 }
 
+std::vector<int> UnstructuredSampler::nearest_partners(int ref, std::size_t most) const {
+  std::vector<int> nearest = partners_[ref];
+  std::erase(nearest, ref);
+  const Eigen::Vector3d here = cameras_[ref].position();
+  std::ranges::stable_sort(nearest, {},
+                           [&](int view) { return (cameras_[view].position() - here).norm(); });
+  nearest.resize(std::min(nearest.size(), most));
+  return nearest;
+}
+
 double UnstructuredSampler::inverse_depth(int view, double hypothesis) const {
   const InverseDepthRange& range = *cameras_[view].inverse_depth;
   return range.min + hypothesis * (range.max - range.min);

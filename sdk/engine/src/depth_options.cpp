@@ -146,22 +146,6 @@ DepthOptions auto_options() {
   return options;
 }
 
-void adapt_to_posed_views(double per_pixel, DepthOptions& options) {
-  options.score.cubic = false;
-  // Surfaces come nearer and turn from view to view: what is carried over has wider cracks.
-  constexpr int kCrackWidth = 4;
-  if (options.propagation.crack_width > 0) options.propagation.crack_width = kCrackWidth;
-  if (!options.score.gradient) return;
-  options.score.unseen = 0.1f;
-  options.score.colour_slack = 1;
-  options.score.gradient_slack = 0.5f;
-  options.winner.peak_share = 0.3f;
-  // Window and interpolation make a peak a few pixels wide, and no less than three hypotheses.
-  constexpr double kPeak = 4, kWidestPeak = 20;  // px
-  options.winner.peak_width = std::max(int(std::lround(kPeak * per_pixel)), 3);
-  options.winner.widest_peak = std::max(int(std::lround(kWidestPeak * per_pixel)), 9);
-}
-
 DepthOptions preset_options(const std::string& name) {
   if (name == "paper") return paper_options();
   if (name == "auto") return auto_options();

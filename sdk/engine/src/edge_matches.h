@@ -39,6 +39,30 @@ inline ScoreOptions matching_score() {
   return score;
 }
 
+/// A pixel and its edge confidence.
+struct EdgePixel {
+  float edge = 0;
+  int u = 0, v = 0;
+};
+
+/// The pixels of view 0 of a band with the strongest edges, in no order: of those `step` apart and
+/// `margin` px inside, a third and at most so many.
+inline std::vector<EdgePixel> strongest_edges(const reference::Band& band, bool both_axes, int step,
+                                              int margin, int most_pixels) {
+  constexpr float kMostEdge = 100;  // more than any picture has: the border of a mask
+  StripMap<float> edges(band.shape.width, band.rows);
+  reference::edge_confidence(band, 0, band.rows, EdgeOptions{2, false, 0, false}, both_axes, edges);
+  std::vector<EdgePixel> pixels;
+  for (int v = margin; v < band.shape.height - margin; v += step)
+    for (int u = margin; u < band.shape.width - margin; u += step)
+      if (edges.row(v)[u] < kMostEdge) pixels.push_back({edges.row(v)[u], u, v});
+  const std::size_t count = std::min<std::size_t>(pixels.size() / 3, most_pixels);
+  std::nth_element(pixels.begin(), pixels.begin() + long(count), pixels.end(),
+                   [](const EdgePixel& a, const EdgePixel& b) { return a.edge > b.edge; });
+  pixels.resize(count);
+  return pixels;
+}
+
 /// The best hypothesis of the pixels with the strongest edges of view 0 of a band, by the mean
 /// score of a window around each. level0_sampler: of the views of the band. window: px on each
 /// side.
@@ -47,26 +71,13 @@ std::vector<PixelMatch> match_edges(const reference::Band& band, const S& level0
                                     bool is_4d, const HypothesisRange& range,
                                     const RunControl& control, int most_pixels, int window = 0) {
   const S sampler = level0_sampler.at_level(band.shape.level);
-  StripMap<float> edges(band.shape.width, band.rows);
-  reference::edge_confidence(band, 0, band.rows, EdgeOptions{2, false, 0, false}, is_4d, edges);
-  constexpr float kLeastEdge = 0.1f, kMostEdge = 100;
-  struct Pixel {
-    float edge;
-    int u, v;
-  };
-  std::vector<Pixel> pixels;
-  for (int v = 2; v < band.shape.height - 2; v += 2)
-    for (int u = 2; u < band.shape.width - 2; u += 2) pixels.push_back({edges.row(v)[u], u, v});
-  const std::size_t count = std::min<std::size_t>(pixels.size() / 3, most_pixels);
-  std::nth_element(pixels.begin(), pixels.begin() + count, pixels.end(),
-                   [](const Pixel& a, const Pixel& b) { return a.edge > b.edge; });
-  pixels.resize(count);
-
+  constexpr float kLeastEdge = 0.1f;
+  const std::vector<EdgePixel> pixels = strongest_edges(band, is_4d, 2, 2, most_pixels);
   const ScoreOptions score = matching_score();
   std::vector<std::optional<PixelMatch>> found(pixels.size());
-  const auto match = [&](const Pixel& pixel) -> std::optional<PixelMatch> {
-    // A flat picture tells nothing; more is the border of a mask.
-    if (pixel.edge < kLeastEdge || pixel.edge > kMostEdge) return std::nullopt;
+  const auto match = [&](const EdgePixel& pixel) -> std::optional<PixelMatch> {
+    // A flat picture tells nothing.
+    if (pixel.edge < kLeastEdge) return std::nullopt;
     std::vector<float> scores(std::size_t(range.count));
     const RowRange rows = grown({pixel.v, pixel.v + 1}, window, band.shape.height);
     const RowRange columns = grown({pixel.u, pixel.u + 1}, window, band.shape.width);

@@ -9,10 +9,11 @@
 #include <optional>
 #include <utility>
 
+#include "edge_matches.h"
 #include "gigaray/parallel.h"
 #include "gigaray/samplers/unstructured_sampler.h"
+#include "noise_rows.h"
 #include "picture_bands.h"
-#include "reference/edge_confidence.h"
 
 namespace gigaray {
 namespace {
@@ -77,42 +78,14 @@ std::optional<Window> window_seen(const Band& band, const UnstructuredSampler& s
   return window;
 }
 
-struct Pixel {
-  float edge = 0;
-  int u = 0, v = 0;
-};
-
-/// Pixels of view 0 with the strongest edges.
-std::vector<Pixel> strong_edges(const Band& band) {
-  constexpr int kStep = 4, kMostPixels = 150;
-  constexpr float kMostEdge = 100;  // more is the border of a mask
-  StripMap<float> edges(band.shape.width, band.rows);
-  reference::edge_confidence(band, 0, band.rows, EdgeOptions{2, false, 0, false}, true, edges);
-  std::vector<Pixel> pixels;
-  for (int v = kWindow; v < band.shape.height - kWindow; v += kStep)
-    for (int u = kWindow; u < band.shape.width - kWindow; u += kStep)
-      if (edges.row(v)[u] < kMostEdge) pixels.push_back({edges.row(v)[u], u, v});
-  const std::size_t count = std::min<std::size_t>(pixels.size() / 3, kMostPixels);
-  std::nth_element(pixels.begin(), pixels.begin() + long(count), pixels.end(),
-                   [](const Pixel& a, const Pixel& b) { return a.edge > b.edge; });
-  pixels.resize(count);
-  return pixels;
-}
-
-float median_of(std::vector<float>& values) {
-  const auto middle = values.begin() + long(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 /// How much brighter view `other` is than view 0 of a band; empty: too little of them matches.
 std::optional<Exposure> brighter(const Band& band, const UnstructuredSampler& sampler, int other,
-                                 const std::vector<Pixel>& pixels, int hypotheses) {
+                                 const std::vector<EdgePixel>& pixels, int hypotheses) {
   constexpr float kLike = 0.9f, kLead = 0.05f;
   constexpr int kApart = 3;  // hypotheses
   constexpr std::size_t kLeastMatches = 12;
   std::array<std::vector<float>, 3> ratios;
-  for (const Pixel& pixel : pixels) {
+  for (const EdgePixel& pixel : pixels) {
     Window own;
     int i = 0;
     for (int dv = -kWindow; dv <= kWindow; ++dv)
@@ -139,23 +112,9 @@ std::optional<Exposure> brighter(const Band& band, const UnstructuredSampler& sa
     for (int c = 0; c < 3; ++c) ratios[c].push_back(std::log(found.mean[c] / own.mean[c]));
   }
   if (ratios[0].size() < kLeastMatches) return std::nullopt;
-  return Exposure{median_of(ratios[0]), median_of(ratios[1]), median_of(ratios[2])};
-}
-
-/// The partners that stand nearest.
-std::vector<int> nearest_partners(const LightField& light_field, const UnstructuredSampler& all,
-                                  int ref) {
-  constexpr std::size_t kMost = 3;
-  std::vector<int> chosen = all.partners(ref);
-  std::erase(chosen, ref);
-  const Eigen::Vector3d here = light_field.cameras[ref].position();
-  const auto distance = [&](int view) {
-    return (light_field.cameras[view].position() - here).norm();
-  };
-  std::stable_sort(chosen.begin(), chosen.end(),
-                   [&](int a, int b) { return distance(a) < distance(b); });
-  chosen.resize(std::min(chosen.size(), kMost));
-  return chosen;
+  Exposure result{};
+  for (int c = 0; c < 3; ++c) result[c] = float(percentile(ratios[c], 0.5));
+  return result;
 }
 
 /// No picture is made brighter for the sake of one that is brighter than most by more than this.
@@ -187,7 +146,7 @@ std::vector<Exposure> exposures_of(int views, const std::vector<Difference>& dif
   for (int c = 0; c < 3; ++c) {
     std::vector<float> sorted;
     for (int view = 0; view < views; ++view) sorted.push_back(float(solved(view, c)));
-    const float usual = median_of(sorted);
+    const float usual = float(percentile(sorted, 0.5));
     const float brightest =
         std::min(*std::max_element(sorted.begin(), sorted.end()), usual + kBrightest);
     for (int view = 0; view < views; ++view)
@@ -204,13 +163,16 @@ class EvenedPixels : public PixelSource {
   Image<std::uint16_t> read(int view_idx) const override {
     Image<std::uint16_t> picture = pixels_->read(view_idx);
     const int most = (1 << bit_depth()) - 1, clipped = most - most / 50;
+    std::array<std::vector<std::uint16_t>, 3> even;
+    for (int c = 0; c < 3; ++c) {
+      const float factor = std::exp(-exposures_[view_idx][c]);
+      for (int value = 0; value < clipped; ++value)
+        even[c].push_back(std::uint16_t(std::lround(std::min(factor * value, float(most)))));
+    }
     for (int v = 0; v < picture.height(); ++v)
       for (int u = 0; u < picture.width(); ++u) {
         if (std::max({picture(u, v, 0), picture(u, v, 1), picture(u, v, 2)}) >= clipped) continue;
-        for (int c = 0; c < 3; ++c) {
-          const float even = float(picture(u, v, c)) * std::exp(-exposures_[view_idx][c]);
-          picture(u, v, c) = std::uint16_t(std::lround(std::min(even, float(most))));
-        }
+        for (int c = 0; c < 3; ++c) picture(u, v, c) = even[c][picture(u, v, c)];
       }
     return picture;
   }
@@ -226,17 +188,19 @@ class EvenedPixels : public PixelSource {
 }  // namespace
 
 std::vector<Exposure> estimate_exposures(const LightField& light_field, const RunControl& control) {
+  constexpr int kMostPixels = 150;
+  constexpr std::size_t kMostPartners = 3;
   const UnstructuredSampler all(light_field.cameras, light_field.most_partners);
   SmallViews small(light_field);
   std::vector<Difference> differences;
   for (int ref = 0; ref < light_field.num_views(); ++ref) {
     control.progress("exposures", ref, light_field.num_views());
-    std::vector<int> chosen = nearest_partners(light_field, all, ref);
+    std::vector<int> chosen = all.nearest_partners(ref, kMostPartners);
     if (chosen.empty()) continue;
     chosen.insert(chosen.begin(), ref);
     const Band band = small.band(chosen, control);
     const UnstructuredSampler views = all.subset(chosen).at_level(band.shape.level);
-    const std::vector<Pixel> pixels = strong_edges(band);
+    const std::vector<EdgePixel> pixels = strongest_edges(band, true, 4, kWindow, kMostPixels);
     std::vector<std::optional<Exposure>> found(chosen.size());
     parallel_for(
         int(chosen.size()) - 1,

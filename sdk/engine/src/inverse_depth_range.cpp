@@ -56,15 +56,8 @@ InverseDepthRange shared_depths(const LightField& light_field, int ref) {
 std::vector<Eigen::Vector3d> match_points(const LightField& light_field, int ref, SmallViews& small,
                                           const RunControl& control) {
   const UnstructuredSampler all(light_field.cameras);
-  std::vector<int> chosen = all.partners(ref);
-  std::erase(chosen, ref);
   // The nearest ones: a coarse search finds most in what looks alike.
-  const Eigen::Vector3d here = light_field.cameras[ref].position();
-  std::sort(chosen.begin(), chosen.end(), [&](int a, int b) {
-    return (light_field.cameras[a].position() - here).norm() <
-           (light_field.cameras[b].position() - here).norm();
-  });
-  chosen.resize(std::min<std::size_t>(chosen.size(), 4));
+  std::vector<int> chosen = all.nearest_partners(ref, 4);
   if (chosen.empty()) return {};
   chosen.insert(chosen.begin(), ref);
   const LightField views = subset(light_field, chosen);

@@ -28,4 +28,9 @@ double usual_travel(const LightField& light_field);
 /// the usual travel, as far as the most that are reasonable go.
 int count_hypotheses(double travel, const DepthOptions& options);
 
+/// What differs between posed photographs and views on a line or in a grid, the kernels for presets
+/// with ScoreOptions::gradient: they stand farther apart, so that each sees a smaller part of what
+/// the others see, in another perspective. per_pixel: hypotheses for every px that a point goes.
+void adapt_to_posed_views(double per_pixel, DepthOptions& options);
+
 }  // namespace gigaray

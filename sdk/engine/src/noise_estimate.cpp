@@ -161,7 +161,7 @@ ViewNoise measure_posed(const LightField& light_field, int view, const Hypothesi
 }
 
 /// Some views that are compared with others, spread over all.
-std::vector<int> spread_views(const LightField& light_field) {
+std::vector<int> views_to_measure(const LightField& light_field) {
   constexpr int kMostViews = 5;
   const AnySampler sampler = make_sampler(light_field);
   std::vector<int> compared;
@@ -187,7 +187,7 @@ NoiseEstimate estimate_noise(const LightField& light_field, const HypothesisRang
     if (found.is_measured) return found.estimate;
   }
   std::vector<NoiseEstimate> measured;
-  for (const int view : spread_views(light_field)) {
+  for (const int view : views_to_measure(light_field)) {
     const ViewNoise found =
         is_posed ? measure_posed(light_field, view, hypotheses, control)
                  : measure_view(light_field, view, kMostRows, hypotheses, control, {});

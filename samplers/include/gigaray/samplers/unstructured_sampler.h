@@ -33,6 +33,8 @@ class UnstructuredSampler {
   int num_views() const { return int(cameras_.size()); }
   std::optional<Ray> locate(int ref, int other, Ray ray) const;
   std::vector<int> partners(int ref) const { return partners_[ref]; }
+  /// Those of them, `ref` left out, whose cameras stand nearest, at most so many, nearest first.
+  std::vector<int> nearest_partners(int ref, std::size_t most) const;
   RowRange rows_needed(int ref, RowRange rows, HypothesisRange range, int height) const;
   UnstructuredSampler at_level(int level) const;
   UnstructuredSampler subset(const std::vector<int>& views) const;

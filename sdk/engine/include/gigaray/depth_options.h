@@ -183,12 +183,6 @@ DepthOptions paper_options();
 /// The default: robust kernels of colour and gradient, bilateral support, sub-hypothesis winner.
 DepthOptions auto_options();
 
-/// What differs between posed photographs and views on a line or in a grid, for presets with
-/// ScoreOptions::gradient: they stand farther apart, so that each sees a smaller part of what the
-/// others see, in another perspective. reconstruct() applies it. per_pixel: hypotheses for every px
-/// that a point goes.
-void adapt_to_posed_views(double per_pixel, DepthOptions& options);
-
 /// By name, "paper" or "auto". Throws Error(kInvalidArgument).
 DepthOptions preset_options(const std::string& name);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Gigaray authors
-#include "exposures.h"
+#include "view_gains.h"
 
 #include <Eigen/Cholesky>
 #include <algorithm>
@@ -47,12 +47,12 @@ std::optional<std::array<float, 3>> log_light_at(const Image<std::uint8_t>& pict
 
 }  // namespace
 
-Exposures::Exposures(const SurfaceMesh& mesh, int num_views)
+ViewGains::ViewGains(const SurfaceMesh& mesh, int num_views)
     : num_views_(num_views),
       step_(std::max<std::size_t>(1, mesh.positions.size() / kMostPoints)),
       points_(mesh.positions.size() / step_) {}
 
-void Exposures::look(int view, const MeshSight& sight, const Image<std::uint8_t>& picture) {
+void ViewGains::look(int view, const MeshSight& sight, const Image<std::uint8_t>& picture) {
   for (std::size_t i = 0; i < points_.size(); ++i) {
     const auto vertex = std::uint32_t(i * step_);
     if (!sight.sees_vertex(vertex)) continue;
@@ -62,7 +62,7 @@ void Exposures::look(int view, const MeshSight& sight, const Image<std::uint8_t>
   }
 }
 
-Eigen::VectorXd Exposures::solve(int channel) const {
+Eigen::VectorXd ViewGains::solve(int channel) const {
   Eigen::VectorXd gains = Eigen::VectorXd::Zero(num_views_);
   for (int round = 0; round < kRounds; ++round) {
     Eigen::MatrixXd matrix = kPrior * Eigen::MatrixXd::Identity(num_views_, num_views_);
@@ -96,7 +96,7 @@ Eigen::VectorXd Exposures::solve(int channel) const {
   return gains;
 }
 
-std::vector<Eigen::Array3d> Exposures::gains() const {
+std::vector<Eigen::Array3d> ViewGains::gains() const {
   std::vector<Eigen::Array3d> result(std::size_t(num_views_), Eigen::Array3d::Ones());
   for (int k = 0; k < 3; ++k) {
     const Eigen::VectorXd logs = solve(k);

@@ -13,10 +13,10 @@
 namespace gigaray {
 
 /// Colours of points of a surface in the views that see them, and the gains that make them alike.
-class Exposures {
+class ViewGains {
  public:
   /// Points are vertices of the mesh.
-  Exposures(const SurfaceMesh& mesh, int num_views);
+  ViewGains(const SurfaceMesh& mesh, int num_views);
 
   /// Looks at the view's points. Colours near black and white are left out.
   void look(int view, const MeshSight& sight, const Image<std::uint8_t>& picture);
