@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "view_gains.h"
 #include "gigaray/surface_mesh.h"
 #include "gigaray/surface_texture.h"
+#include "view_gains.h"
 
 namespace gigaray {
 
