@@ -104,7 +104,8 @@ ordered_json options_json(const Reconstruction& result) {
           {"jump_sigma_colour", o.support.jump_sigma_colour},
           {"fill_hidden", o.support.fill_hidden},
           {"refine", o.winner.refine},
-          {"propagation_tolerance", o.propagation.tolerance}};
+          {"propagation_tolerance", o.propagation.tolerance},
+          {"consensus", o.propagation.consensus}};
 }
 
 ordered_json light_field_json(const LightField& light_field) {

@@ -124,10 +124,31 @@ double UnstructuredSampler::hypothesis(int view, double inverse_depth) const {
 }
 
 UnstructuredSampler::Pair UnstructuredSampler::pair(int ref, int other) const {
+  if (ref == other) return {Eigen::Matrix3d::Identity(), Eigen::Vector3d::Zero()};
   const Camera &from = cameras_[ref], &to = cameras_[other];
   const Eigen::Matrix3d turn = to.rotation * from.rotation.transpose();
   const Eigen::Matrix3d k = intrinsics(to);
   return {k * turn * intrinsics(from).inverse(), k * (to.translation - turn * from.translation)};
+}
+
+UnstructuredSampler::Way UnstructuredSampler::way(int ref, int other) const {
+  const Pair go = pair(ref, other);
+  Way way;
+  way.from_ = *cameras_[ref].inverse_depth;
+  way.to_ = *cameras_[other].inverse_depth;
+  // M (u, v, 1) + (min + h (max − min)) m
+  way.turn_ = go.turn;
+  way.turn_.col(2) += way.from_.min * go.shift;
+  way.shift_ = (way.from_.max - way.from_.min) * go.shift;
+  return way;
+}
+
+std::optional<Ray> UnstructuredSampler::Way::operator()(Ray ray) const {
+  const Eigen::Vector3d at =
+      turn_.col(0) * ray.u + turn_.col(1) * ray.v + turn_.col(2) + shift_ * ray.hypothesis;
+  if (!(at.z() > kBehind)) return std::nullopt;
+  const double w = from_.min + ray.hypothesis * (from_.max - from_.min);
+  return Ray{at.x() / at.z(), at.y() / at.z(), (w / at.z() - to_.min) / (to_.max - to_.min)};
 }
 
 std::optional<Ray> UnstructuredSampler::locate(int ref, int other, Ray ray) const {
@@ -200,21 +221,15 @@ UnstructuredSampler UnstructuredSampler::subset(const std::vector<int>& views) c
 
 std::vector<float> UnstructuredSampler::ray_table(int ref) const {
   std::vector<float> table;
-  const InverseDepthRange& own = *cameras_[ref].inverse_depth;
   for (int other = 0; other < num_views(); ++other) {
-    Pair go{Eigen::Matrix3d::Identity(), Eigen::Vector3d::Zero()};
-    if (other != ref) go = pair(ref, other);
-    // M (u, v, 1) + (min + h (max − min)) m
-    Eigen::Matrix3d turn = go.turn;
-    turn.col(2) += own.min * go.shift;
-    const Eigen::Vector3d shift = (own.max - own.min) * go.shift;
-    const InverseDepthRange& theirs = *cameras_[other].inverse_depth;
-    const double per_depth = 1 / (theirs.max - theirs.min);
+    const Way go = way(ref, other);
+    const double per_depth = 1 / (go.to_.max - go.to_.min);
     for (int row = 0; row < 3; ++row)
-      table.insert(table.end(), {float(turn(row, 0)), float(turn(row, 1)), float(turn(row, 2)),
-                                 float(shift[row])});
-    table.insert(table.end(), {float(own.min * per_depth), float((own.max - own.min) * per_depth),
-                               float(theirs.min * per_depth), 0.0f});
+      table.insert(table.end(), {float(go.turn_(row, 0)), float(go.turn_(row, 1)),
+                                 float(go.turn_(row, 2)), float(go.shift_[row])});
+    table.insert(table.end(),
+                 {float(go.from_.min * per_depth), float((go.from_.max - go.from_.min) * per_depth),
+                  float(go.to_.min * per_depth), 0.0f});
   }
   return table;
 }

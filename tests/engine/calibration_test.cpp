@@ -37,6 +37,19 @@ TEST(Calibration, RisesFromLittleToCertainty) {
   }
 }
 
+TEST(Calibration, AgreementRisesFromNothingToCertainty) {
+  EXPECT_FLOAT_EQ(calibrated_agreement(-1), 0.01f);
+  EXPECT_FLOAT_EQ(calibrated_agreement(0.3f), 0.86f);
+  EXPECT_FLOAT_EQ(calibrated_agreement(1), 0.999f);
+  EXPECT_TRUE(std::isnan(calibrated_agreement(kNoEstimate)));
+  float last = 0;
+  for (int i = -64; i <= 100; ++i) {
+    const float next = calibrated_agreement(0.01f * float(i));
+    EXPECT_GT(next, last) << i;
+    last = next;
+  }
+}
+
 TEST(Calibration, UnsureDisparitiesAreTakenBackAndTheirConfidenceStays) {
   ViewDepth depth{FloatMap(3, 1, 1, 0.5f), FloatMap(3, 1), Image<std::int8_t>(3, 1)};
   depth.confidence(0, 0) = 0.8f;

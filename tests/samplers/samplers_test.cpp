@@ -68,6 +68,23 @@ TEST(Samplers, Law3EpiIsGridWhereAllTAreEqual) {
   }
 }
 
+TEST(Samplers, AWayOfManyRaysIsThatOfEach) {
+  for (const UnstructuredSampler& sampler : UnstructuredRigs::samplers())
+    for (int a = 0; a < sampler.num_views(); ++a)
+      for (int b = 0; b < sampler.num_views(); ++b) {
+        const auto way = sampler.way(a, b);
+        for (const double h : {-0.1, 0.0, 0.37, 1.2}) {
+          const Ray ray{9.0 + a, 33.0 - 2.0 * b, h};
+          const auto expected = sampler.locate(a, b, ray), actual = way(ray);
+          ASSERT_EQ(actual.has_value(), expected.has_value());
+          if (!expected) continue;
+          EXPECT_NEAR(actual->u, expected->u, 1e-9);
+          EXPECT_NEAR(actual->v, expected->v, 1e-9);
+          EXPECT_NEAR(actual->hypothesis, expected->hypothesis, 1e-9);
+        }
+      }
+}
+
 /// Parallel cameras at the positions of views; disparity d is inverse depth d / (focal · step).
 std::vector<Camera> rectified_cameras(const std::vector<View>& views, DisparityRange disparity,
                                       double focal, double step) {

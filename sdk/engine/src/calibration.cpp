@@ -10,7 +10,7 @@ namespace gigaray {
 namespace {
 
 struct Point {
-  float contrast, right;
+  float value, right;
 };
 
 /// Middles of the bins of contrast and the mean share of right pixels over 14 scenes and variants.
@@ -42,20 +42,41 @@ constexpr std::array<Point, 13> kPosed{{{0.0f, 0.02f},
                                         {0.55f, 0.995f},
                                         {1.0f, 1.0f}}};
 
-}  // namespace
+/// Views that agree on posed photographs, see view_consensus.h.
+constexpr std::array<Point, 15> kAgreement{{{-0.65f, 0.01f},
+                                            {-0.2f, 0.1f},
+                                            {-0.05f, 0.27f},
+                                            {0.025f, 0.43f},
+                                            {0.075f, 0.55f},
+                                            {0.125f, 0.66f},
+                                            {0.175f, 0.74f},
+                                            {0.25f, 0.82f},
+                                            {0.35f, 0.9f},
+                                            {0.45f, 0.94f},
+                                            {0.55f, 0.967f},
+                                            {0.65f, 0.982f},
+                                            {0.75f, 0.99f},
+                                            {0.85f, 0.995f},
+                                            {1.0f, 0.999f}}};
 
-float calibrated_confidence(float contrast, LightFieldKind kind) {
-  const std::span<const Point> points =
-      kind == LightFieldKind::kUnstructured ? std::span<const Point>(kPosed) : kParallel;
-  if (std::isnan(contrast)) return contrast;
-  if (contrast <= points.front().contrast) return points.front().right;
+float right_at(std::span<const Point> points, float value) {
+  if (std::isnan(value)) return value;
+  if (value <= points.front().value) return points.front().right;
   for (std::size_t i = 1; i < points.size(); ++i) {
     const Point &low = points[i - 1], &high = points[i];
-    if (contrast <= high.contrast)
-      return low.right +
-             (high.right - low.right) * (contrast - low.contrast) / (high.contrast - low.contrast);
+    if (value <= high.value)
+      return low.right + (high.right - low.right) * (value - low.value) / (high.value - low.value);
   }
   return points.back().right;
 }
+
+}  // namespace
+
+float calibrated_confidence(float contrast, LightFieldKind kind) {
+  return right_at(
+      kind == LightFieldKind::kUnstructured ? std::span<const Point>(kPosed) : kParallel, contrast);
+}
+
+float calibrated_agreement(float agreement) { return right_at(kAgreement, agreement); }
 
 }  // namespace gigaray

@@ -7,6 +7,7 @@
 #include "gigaray/reconstruct.h"
 #include "reconstruction_impl.h"
 #include "reference/search_bounds.h"
+#include "view_consensus.h"
 
 namespace gigaray {
 
@@ -29,7 +30,9 @@ Decision Reconstruction::decision(int view_idx, int u, int v) const {
 
   // The tuple whose ray ends here with this hypothesis.
   double nearest = 0.75;  // px of the level: propagation rounds to the nearest pixel
-  const float alike = 1e-4f * float(impl.hypotheses.max - impl.hypotheses.min);
+  // Where views were held against each other, the mean of what some of them say.
+  const float alike = impl.agreed ? kSameEstimate * float(impl.hypotheses.step())
+                                  : 1e-4f * float(impl.hypotheses.max - impl.hypotheses.min);
   std::visit(
       [&](const auto& sampler) {
         const auto rays = sampler.at_level(level);

@@ -87,6 +87,8 @@ void DepthOptions::check() const {
   in_range("propagation.tolerance", propagation.tolerance, kTiny, kLarge);
   in_range("propagation.finished_lead", propagation.finished_lead, 0.0f, kLarge);
   in_range("propagation.crack_width", propagation.crack_width, 0, 8);
+  if (propagation.consensus && !winner.calibrated)
+    throw Error(ErrorCode::kInvalidArgument, "propagation.consensus needs winner.calibrated");
   in_range("propagation.final_median_radius", propagation.final_median_radius, 0, 8);
   if (memory_bytes < 0 || std::isnan(memory_bytes))
     throw Error(ErrorCode::kInvalidArgument, "memory must not be negative");
@@ -142,6 +144,7 @@ DepthOptions auto_options() {
   options.winner.min_relief = 0.05f;
   options.propagation.finished_lead = 2;
   options.propagation.crack_width = 2;
+  options.propagation.consensus = true;
   options.propagation.final_median_radius = 0;  // its own median has been there
   return options;
 }

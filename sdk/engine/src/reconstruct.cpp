@@ -25,6 +25,7 @@
 #include "run.h"
 #include "settle_direction.h"
 #include "stage_timer.h"
+#include "view_consensus.h"
 
 namespace gigaray {
 namespace {
@@ -169,6 +170,7 @@ Prepared prepare(const LightField& light_field, const DepthOptions& wanted,
     prepare_unstructured(run, control);
   } else {
     prepare_range(run, control);
+    run.options.propagation.consensus = false;
   }
   run.options.hypotheses = run.hypotheses.count;
   adapt_to_few_views(run.light_field, run.options);
@@ -367,6 +369,7 @@ Reconstruction Estimator::compute(const LightField& light_field, const DepthOpti
   RunResult result =
       run_pipeline({seen, impl->options, impl->hypotheses, impl->plan, control}, workspaces);
   for (const std::string& job : jobs) opencl::note_ready_kernels(job);
+  workspaces.clear();
   impl->maps = std::move(result.maps);
   impl->searches = std::move(result.searches);
   impl->active = active_views(seen, impl->options);
@@ -374,6 +377,13 @@ Reconstruction Estimator::compute(const LightField& light_field, const DepthOpti
   std::sort(impl->views.begin(), impl->views.end());
   impl->tuples = std::move(result.tuples);
   impl->seconds.merge(result.seconds);
+  if (const auto* posed = std::get_if<UnstructuredSampler>(&*impl->sampler);
+      posed && impl->options.propagation.consensus && impl->active.size() > 1) {
+    const StageTimer timer(impl->seconds, "agreement");
+    impl->maps = view_consensus(*posed, impl->active, impl->maps, impl->hypotheses.step(),
+                                impl->plan.work_folder, control);
+    impl->agreed = true;
+  }
   return Reconstruction(std::move(impl));
 }
 

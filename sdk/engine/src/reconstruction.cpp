@@ -77,7 +77,7 @@ ViewDepth Reconstruction::view(int view_idx) const {
   for (int v = 0; v < height; ++v)
     impl_->maps.read(active, v, depth.disparity.row(v), depth.confidence.row(v),
                      depth.level.row(v));
-  if (impl_->options.winner.calibrated)
+  if (impl_->options.winner.calibrated && !impl_->agreed)
     for (float& confidence : depth.confidence)
       confidence = calibrated_confidence(confidence, impl_->light_field.kind);
   for (float& value : depth.disparity) value = impl_->disparity_of(view_idx, value);

@@ -27,6 +27,7 @@ struct Reconstruction::Impl {
   std::vector<int> views;             ///< ascending
   std::vector<int> active;            ///< as processed
   FinishedMaps maps;                  ///< of the active views
+  bool agreed = false;                ///< by view_consensus(), so confidence is calibrated
   std::vector<LevelSearch> searches;  ///< with DepthOptions::keep_searches
   RunTuples tuples;
   std::map<std::string, double> seconds;

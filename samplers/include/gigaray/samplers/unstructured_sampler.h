@@ -30,8 +30,22 @@ class UnstructuredSampler {
   /// view, itself not counted, the best ones by overlap and angle; 0: all that fit.
   explicit UnstructuredSampler(const std::vector<Camera>& cameras, int most_partners = 0);
 
+  /// The way of rays of one view into another, for many of them: what locate() gives, but for the
+  /// rounding of floating point.
+  class Way {
+   public:
+    std::optional<Ray> operator()(Ray ray) const;
+
+   private:
+    friend UnstructuredSampler;
+    Eigen::Matrix3d turn_;   // M, with the far end of the range
+    Eigen::Vector3d shift_;  // m, over the range
+    InverseDepthRange from_, to_;
+  };
+
   int num_views() const { return int(cameras_.size()); }
   std::optional<Ray> locate(int ref, int other, Ray ray) const;
+  Way way(int ref, int other) const;
   std::vector<int> partners(int ref) const { return partners_[ref]; }
   /// Those of them, `ref` left out, whose cameras stand nearest, at most so many, nearest first.
   std::vector<int> nearest_partners(int ref, std::size_t most) const;

@@ -12,4 +12,8 @@ namespace gigaray {
 /// clean and noisy (docs/accuracy.md has the tables per scene). NaN stays NaN.
 float calibrated_confidence(float contrast, LightFieldKind kind);
 
+/// The same of posed photographs whose views were held against each other: agreement is what views
+/// say for an estimate less what they say against it, as a share of all that might, −1 … 1.
+float calibrated_agreement(float agreement);
+
 }  // namespace gigaray

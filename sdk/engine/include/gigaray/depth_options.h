@@ -134,6 +134,9 @@ struct PropagationOptions {
   /// Holes between estimates carried over from other views that are filled between their neighbours
   /// on level 0, and holes that are left to coarser levels: px. 0: none; 0 … 8
   int crack_width = 0;
+  /// Posed photographs: the finished maps of all views are held against each other, and what a view
+  /// says alone gives way to what several say (view_consensus.h). Needs WinnerOptions::calibrated.
+  bool consensus = false;
   bool fine_to_coarse = true;   ///< false: level 0 alone, which then accepts everything.
   int final_median_radius = 1;  ///< Half the window of the final plain median; 0: none.
 };
