@@ -31,6 +31,8 @@ constexpr double kDeviceShare = 0.9;
 constexpr int kSmallestLevel = 10;  // px
 /// Most for the scores of a strip, where its least number of rows takes less.
 constexpr double kLargestVolume = 1024 * kMiB;
+/// Rows of a strip, beside those that it keeps, that make all others' scores cheap.
+constexpr int kUsualRows = 6 * kScanlineBlock;
 /// Most for a band in the host's memory, where a sweep's least window takes less: more rows at once
 /// gain little, since none is loaded twice.
 constexpr double kLargestBand = 1792 * kMiB;
@@ -126,18 +128,18 @@ class Planner {
     all_rows_ = row * (light_field.height + finest.halo + finest.multiple);
   }
 
-  /// Bytes for the scores of a strip. All rows if they fit into a part of the memory: else a strip
-  /// is scored again for the second look.
+  /// Bytes for the scores of a strip. Those of the first look are kept for the slanted one where
+  /// memory allows: to score them again costs more than anything else. More rows at once than
+  /// `kUsualRows` gain nothing.
   double usual_volume(double limit) const {
     const double memory = std::min(limit, device_memory());
-    const double most = std::min(kLargestVolume, device_.largest_buffer);
-    return std::min(std::clamp(memory / 12, least_volume_, std::max(most, least_volume_)),
+    const double most = std::min({rows_volume(kUsualRows), kLargestVolume, device_.largest_buffer});
+    return std::min(std::clamp(memory / 12, keeping_volume(), std::max(most, keeping_volume())),
                     all_rows_);
   }
-  /// The least that keeps the first look's scores for the slanted one, in strips of some blocks.
+  /// The least that keeps the first look's scores, in strips of a block.
   double keeping_volume() const {
-    const double row = volume_row_bytes(light_field_.width, hypotheses_);
-    return std::min(row * (score_lag(0) + 2 * kScanlineBlock), all_rows_);
+    return std::min(std::max(rows_volume(kScanlineBlock), least_volume_), all_rows_);
   }
   double least_volume() const { return std::min(least_volume_, all_rows_); }
 
@@ -296,6 +298,10 @@ class Planner {
   }
 
  private:
+  /// Of strips of so many rows, with what is kept for the slanted look.
+  double rows_volume(int rows) const {
+    return volume_row_bytes(light_field_.width, hypotheses_) * (score_lag(0) + rows);
+  }
   /// Volumes beside that of the scores as they come: with support, along scan-lines.
   int beside_scores(int level) const {
     return (options_.support.radius > 0) + (options_.support.scanline && level == 0);
@@ -430,8 +436,6 @@ MemoryPlan plan_memory(const LightField& light_field, const DepthOptions& option
                        const HypothesisRange& hypotheses, const DeviceLimits& device) {
   const double limit = options.memory_bytes > 0 ? options.memory_bytes : default_memory_limit();
   const Planner planner(light_field, options, hypotheses, device);
-  const double usual = planner.usual_volume(limit);
-
   // In files only where memory does not hold the stores, or leaves so little that a view would be
   // walked in many more bands, each stage by itself.
   constexpr int kFewBands = 4, kManyMore = 4;
@@ -442,9 +446,12 @@ MemoryPlan plan_memory(const LightField& light_field, const DepthOptions& option
     if (other && (!in_memory || Planner::sweeps(*other))) in_memory = std::move(other);
     if (in_memory && Planner::sweeps(*in_memory)) break;
   }
-  for (const double volume : {planner.keeping_volume(), planner.least_volume()})
-    if (!in_memory && !in_files && volume < usual)
-      in_files = planner.plan(limit, volume, Place::kFile);
+  // With fewer rows at once, which are scored again for every look.
+  for (const Place place : {Place::kDevice, Place::kHost, Place::kFile}) {
+    if (in_memory || in_files) break;
+    (place == Place::kFile ? in_files : in_memory) =
+        planner.plan(limit, planner.least_volume(), place);
+  }
   if (!in_memory && !in_files && planner.least_limit() <= limit)
     throw Error(ErrorCode::kOutOfMemory,
                 "the rays of one row reach so much of " + std::to_string(light_field.num_views()) +
