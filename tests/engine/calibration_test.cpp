@@ -38,9 +38,9 @@ TEST(Calibration, RisesFromLittleToCertainty) {
 }
 
 TEST(Calibration, AgreementRisesFromNothingToCertainty) {
-  EXPECT_FLOAT_EQ(calibrated_agreement(-1), 0.01f);
-  EXPECT_FLOAT_EQ(calibrated_agreement(0.3f), 0.86f);
-  EXPECT_FLOAT_EQ(calibrated_agreement(1), 0.999f);
+  EXPECT_FLOAT_EQ(calibrated_agreement(-1), 0.03f);
+  EXPECT_FLOAT_EQ(calibrated_agreement(0.3f), 0.82f);
+  EXPECT_FLOAT_EQ(calibrated_agreement(1), 0.998f);
   EXPECT_TRUE(std::isnan(calibrated_agreement(kNoEstimate)));
   float last = 0;
   for (int i = -64; i <= 100; ++i) {

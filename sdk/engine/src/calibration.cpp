@@ -43,21 +43,21 @@ constexpr std::array<Point, 13> kPosed{{{0.0f, 0.02f},
                                         {1.0f, 1.0f}}};
 
 /// Views that agree on posed photographs, see view_consensus.h.
-constexpr std::array<Point, 15> kAgreement{{{-0.65f, 0.01f},
-                                            {-0.2f, 0.1f},
-                                            {-0.05f, 0.27f},
-                                            {0.025f, 0.43f},
-                                            {0.075f, 0.55f},
-                                            {0.125f, 0.66f},
-                                            {0.175f, 0.74f},
-                                            {0.25f, 0.82f},
-                                            {0.35f, 0.9f},
-                                            {0.45f, 0.94f},
-                                            {0.55f, 0.967f},
-                                            {0.65f, 0.982f},
-                                            {0.75f, 0.99f},
-                                            {0.85f, 0.995f},
-                                            {1.0f, 0.999f}}};
+constexpr std::array<Point, 15> kAgreement{{{-0.65f, 0.03f},
+                                            {-0.2f, 0.06f},
+                                            {-0.05f, 0.22f},
+                                            {0.025f, 0.42f},
+                                            {0.075f, 0.52f},
+                                            {0.125f, 0.62f},
+                                            {0.175f, 0.7f},
+                                            {0.25f, 0.78f},
+                                            {0.35f, 0.86f},
+                                            {0.45f, 0.91f},
+                                            {0.55f, 0.94f},
+                                            {0.65f, 0.963f},
+                                            {0.75f, 0.977f},
+                                            {0.85f, 0.988f},
+                                            {1.0f, 0.998f}}};
 
 float right_at(std::span<const Point> points, float value) {
   if (std::isnan(value)) return value;

@@ -380,8 +380,8 @@ Reconstruction Estimator::compute(const LightField& light_field, const DepthOpti
   if (const auto* posed = std::get_if<UnstructuredSampler>(&*impl->sampler);
       posed && impl->options.propagation.consensus && impl->active.size() > 1) {
     const StageTimer timer(impl->seconds, "agreement");
-    impl->maps = view_consensus(*posed, impl->active, impl->maps, impl->hypotheses.step(),
-                                impl->plan.work_folder, control);
+    impl->maps = view_consensus(*posed, impl->active, std::move(impl->maps),
+                                impl->hypotheses.step(), impl->plan.work_folder, control);
     impl->agreed = true;
   }
   return Reconstruction(std::move(impl));

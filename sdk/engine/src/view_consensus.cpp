@@ -3,7 +3,10 @@
 #include "view_consensus.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
+#include <optional>
 #include <utility>
 
 #include "gigaray/calibration.h"
@@ -11,15 +14,34 @@
 
 namespace gigaray {
 namespace {
-
 /// Other views that are asked: the nearest, which see the same.
 constexpr std::size_t kMostAsked = 8;
 /// The view's own estimate was found with its own pixels: it counts so many times.
 constexpr float kOwnShare = 2;
 /// So much more must speak for another estimate than for the own one.
 constexpr float kLead = 0.3f;
+/// Proposals that are nearer to each other are one, in tolerances.
+constexpr float kAlike = 0.25f;
 /// In a mean of estimates that nobody trusts all count alike.
 constexpr float kLeastWeight = 1e-3f;
+/// Neighbouring pixels that are no farther apart show one surface, in tolerances.
+constexpr float kOneSurface = 3;
+/// Estimates carried over from other views may lie beyond the range of a view; those that are
+/// beyond it by more than this share are left as they are.
+constexpr double kReach = 0.25;
+/// The second pass looks at what the first one mended.
+constexpr int kPasses = 2;
+
+struct Pass {
+  int index;
+  float tolerance;
+
+  /// What a map has as confidence, as a probability: before the first pass it is contrast.
+  float right_of(float confidence) const {
+    return index > 0 ? confidence
+                     : calibrated_confidence(confidence, LightFieldKind::kUnstructured);
+  }
+};
 
 /// An estimate and how likely it is right.
 struct Claim {
@@ -29,17 +51,19 @@ struct Claim {
   float weight() const { return right * right; }
 };
 
+bool is_reached(float hypothesis) {  // NaN is not
+  return hypothesis >= -kReach && hypothesis <= 1 + kReach;
+}
+
 /// Rows of a view's map as claims.
 class Claims {
  public:
-  Claims(const FinishedMaps& maps, int active_idx, RowRange rows)
+  Claims(const FinishedMaps& maps, int active_idx, RowRange rows, const Pass& pass)
       : width_(maps.width()), rows_(rows), claims_(std::size_t(width_) * rows.size()) {
-    std::vector<float> hypotheses(width_), contrasts(width_);
+    std::vector<float> hypotheses(width_), confidences(width_);
     for (int v = rows.begin; v < rows.end; ++v) {
-      maps.read(active_idx, v, hypotheses.data(), contrasts.data(), nullptr);
-      for (int u = 0; u < width_; ++u)
-        row(v)[u] = {hypotheses[u],
-                     calibrated_confidence(contrasts[u], LightFieldKind::kUnstructured)};
+      maps.read(active_idx, v, hypotheses.data(), confidences.data(), nullptr);
+      for (int u = 0; u < width_; ++u) row(v)[u] = {hypotheses[u], pass.right_of(confidences[u])};
     }
   }
   /// Nothing is claimed.
@@ -57,6 +81,39 @@ class Claims {
     return row(int(v + 0.5)) + int(u + 0.5);
   }
   const Claim* at(double u, double v) const { return const_cast<Claims*>(this)->at(u, v); }
+  /// Of the pixels around (u, v), without its own; NaN: there is none.
+  float median_around(int u, int v) const {
+    std::array<float, 8> around;
+    int count = 0;
+    for (int y = std::max(v - 1, rows_.begin); y < std::min(v + 2, rows_.end); ++y)
+      for (int x = std::max(u - 1, 0); x < std::min(u + 2, width_); ++x) {
+        const float hypothesis = row(y)[x].hypothesis;
+        if ((x != u || y != v) && !std::isnan(hypothesis)) around[count++] = hypothesis;
+      }
+    if (count == 0) return kNoEstimate;
+    std::nth_element(around.begin(), around.begin() + count / 2, around.begin() + count);
+    return around[count / 2];
+  }
+  /// Between the four pixels around where they show one surface, else at the nearest.
+  std::optional<Claim> between(double u, double v, float most_apart) const {
+    const Claim* nearest = at(u, v);
+    if (!nearest) return std::nullopt;
+    const int left = int(u), top = int(v);
+    if (!(u >= 0 && v >= rows_.begin && left + 1 < width_ && top + 1 < rows_.end)) return *nearest;
+    const Claim* upper = row(top) + left;
+    const Claim* lower = row(top + 1) + left;
+    const auto [least, most] = std::minmax(
+        {upper[0].hypothesis, upper[1].hypothesis, lower[0].hypothesis, lower[1].hypothesis});
+    if (!(most - least <= most_apart)) return *nearest;
+    const float x = float(u) - float(left), y = float(v) - float(top);
+    const auto mean = [&](auto field) {
+      const float above = field(upper[0]) + x * (field(upper[1]) - field(upper[0]));
+      const float below = field(lower[0]) + x * (field(lower[1]) - field(lower[0]));
+      return above + y * (below - above);
+    };
+    return Claim{mean([](const Claim& c) { return c.hypothesis; }),
+                 mean([](const Claim& c) { return c.right; })};
+  }
 
  private:
   int width_;
@@ -89,31 +146,45 @@ void carry_over(Witness& witness) {
 /// The views around a reference, in a band of its rows.
 class Council {
  public:
-  Council(float tolerance, std::vector<Witness> witnesses)
-      : tolerance_(tolerance), witnesses_(std::move(witnesses)) {
+  Council(const Pass& pass, std::vector<Witness> witnesses)
+      : pass_(pass), tolerance_(pass.tolerance), witnesses_(std::move(witnesses)) {
     parallel_for(
         int(witnesses_.size()), [&](int i) { carry_over(witnesses_[i]); }, [](int) {});
   }
 
+  const Pass& pass() const { return pass_; }
+
   struct Verdict {
-    float hypothesis = kNoEstimate, confidence = kNoEstimate;
+    float hypothesis, confidence;
   };
-  Verdict decide(int u, int v, const Claim& own) const {
-    if (std::isnan(own.hypothesis)) return {};
-    Opinion best = opinion_of(u, v, own.hypothesis, own);
+  /// own: the view's claims around the pixel, a row above and below at least.
+  Verdict decide(int u, int v, const Claims& own) const {
+    const Claim& held = own.row(v)[u];
+    if (!is_reached(held.hypothesis)) return {held.hypothesis, held.right};
+    Opinion best = opinion_of(u, v, held.hypothesis, held);
     float most = best.balance + kLead;
-    for (std::size_t i = 0; i < witnesses_.size(); ++i) {
-      const float proposed = witnesses_[i].here.row(v)[u].hypothesis;
-      if (std::isnan(proposed) || was_proposed(u, v, proposed, own, i)) continue;
-      const Opinion opinion = opinion_of(u, v, proposed, own);
-      if (!(opinion.balance > most)) continue;
+    std::array<float, kMostAsked + 1> proposals;
+    int count = 0;
+    const auto propose = [&](float proposed) {
+      const auto alike = [&](float other) {
+        return std::abs(other - proposed) <= kAlike * tolerance_;
+      };
+      if (!is_reached(proposed) || alike(held.hypothesis) ||
+          std::any_of(proposals.begin(), proposals.begin() + count, alike))
+        return;
+      proposals[count++] = proposed;
+      const Opinion opinion = opinion_of(u, v, proposed, held);
+      if (!(opinion.balance > most)) return;
       most = opinion.balance;
       best = opinion;
-    }
-    const float confidence =
-        best.asked > 0 ? calibrated_agreement(best.balance / (kOwnShare + float(best.asked)))
-                       : own.right;
-    return {best.mean, confidence};
+    };
+    propose(own.median_around(u, v));
+    for (const Witness& witness : witnesses_) propose(witness.here.row(v)[u].hypothesis);
+    if (best.asked == 0) return {best.mean, held.right};
+    const float agreement = best.balance / (kOwnShare + float(best.asked));
+    const float right = calibrated_agreement(agreement);
+    // Views that took over from each other agree: no pass makes them surer than the first.
+    return {best.mean, pass_.index == 0 ? right : std::min(right, held.right)};
   }
 
  private:
@@ -123,39 +194,42 @@ class Council {
     int asked = 0;      ///< views that have the point in their pictures
   };
 
-  /// Has one as good as this been asked about?
-  bool was_proposed(int u, int v, float hypothesis, const Claim& own, std::size_t before) const {
-    const float alike = 0.25f * tolerance_;
-    if (std::abs(own.hypothesis - hypothesis) <= alike) return true;
-    for (std::size_t i = 0; i < before; ++i)
-      if (std::abs(witnesses_[i].here.row(v)[u].hypothesis - hypothesis) <= alike) return true;
-    return false;
-  }
-
   Opinion opinion_of(int u, int v, float hypothesis, const Claim& own) const {
     float weights = 0, sum = 0;
-    const auto shares = [&](const Claim& claim) {
-      if (!(std::abs(claim.hypothesis - hypothesis) <= tolerance_)) return false;
-      weights += claim.weight() + kLeastWeight;
-      sum += (claim.weight() + kLeastWeight) * (claim.hypothesis - hypothesis);
-      return true;
+    const auto share = [&](float estimate, float weight) {
+      weights += weight + kLeastWeight;
+      sum += (weight + kLeastWeight) * (estimate - hypothesis);
     };
     Opinion opinion;
-    if (shares(own)) opinion.balance += kOwnShare * own.weight();
+    if (std::abs(own.hypothesis - hypothesis) <= tolerance_) {
+      share(own.hypothesis, own.weight());
+      opinion.balance += kOwnShare * own.weight();
+    }
     for (const Witness& witness : witnesses_) {
-      const Claim& claim = witness.here.row(v)[u];
-      if (shares(claim)) opinion.balance += claim.weight();
       const auto there = witness.to(Ray{double(u), double(v), hypothesis});
-      const Claim* seen = there ? witness.own.at(there->u, there->v) : nullptr;
+      const auto seen =
+          there ? witness.own.between(there->u, there->v, kOneSurface * tolerance_) : std::nullopt;
       if (!seen) continue;
       ++opinion.asked;
-      const bool sees_through = seen->hypothesis < float(there->hypothesis) - tolerance_;
-      if (sees_through) opinion.balance -= seen->weight();
+      const float beyond = float(there->hypothesis) - seen->hypothesis;
+      if (std::abs(beyond) <= tolerance_) {
+        const auto back = witness.from(Ray{there->u, there->v, seen->hypothesis});
+        if (!back) continue;
+        share(float(back->hypothesis), seen->weight());
+        opinion.balance += seen->weight();
+      } else if (beyond > 0) {  // it sees through
+        opinion.balance -= seen->weight();
+      }
     }
-    opinion.mean = hypothesis + sum / weights;
+    opinion.mean = hypothesis;
+    if (weights > 0)
+      opinion.mean += sum / weights;
+    else
+      opinion.balance = -std::numeric_limits<float>::infinity();
     return opinion;
   }
 
+  const Pass pass_;
   const float tolerance_;
   std::vector<Witness> witnesses_;
 };
@@ -176,7 +250,7 @@ std::vector<int> asked_views(const UnstructuredSampler& sampler, const std::vect
 void agree_on_band(const Council& council, const FinishedMaps& maps, int active_idx, RowRange band,
                    FinishedMaps& agreed) {
   const int width = maps.width();
-  const Claims own(maps, active_idx, band);
+  const Claims own(maps, active_idx, grown(band, 1, maps.height()), council.pass());
   StripMap<float> hypotheses(width, band), confidences(width, band);
   StripMap<std::int8_t> levels(width, band);
   parallel_for(
@@ -185,7 +259,7 @@ void agree_on_band(const Council& council, const FinishedMaps& maps, int active_
         const int v = band.begin + row;
         maps.read(active_idx, v, nullptr, nullptr, levels.row(v));
         for (int u = 0; u < width; ++u) {
-          const Council::Verdict verdict = council.decide(u, v, own.row(v)[u]);
+          const Council::Verdict verdict = council.decide(u, v, own);
           hypotheses.row(v)[u] = verdict.hypothesis;
           confidences.row(v)[u] = verdict.confidence;
         }
@@ -194,16 +268,13 @@ void agree_on_band(const Council& council, const FinishedMaps& maps, int active_
   agreed.put(active_idx, hypotheses.view(), confidences.view(), levels.view());
 }
 
-}  // namespace
-
-FinishedMaps view_consensus(const UnstructuredSampler& sampler, const std::vector<int>& active,
-                            const FinishedMaps& maps, double step, const std::string& folder,
-                            const RunControl& control, std::size_t bytes_at_once) {
+FinishedMaps agree(const UnstructuredSampler& sampler, const std::vector<int>& active,
+                   const FinishedMaps& maps, const Pass& pass, const std::string& folder,
+                   const RunControl& control, std::size_t bytes_at_once) {
   const int width = maps.width(), height = maps.height();
-  const float tolerance = float(kSameEstimate * step);
   FinishedMaps agreed(int(active.size()), width, height, folder);
   for (std::size_t i = 0; i < active.size(); ++i) {
-    control.progress("agreement", double(i), double(active.size()));
+    control.progress("agreement", double(pass.index) + double(i) / double(active.size()), kPasses);
     const int ref = active[i];
     const std::vector<int> asked = asked_views(sampler, active, ref);
     const double row_bytes = 2.0 * sizeof(Claim) * width * double(asked.size() + 1);
@@ -211,16 +282,28 @@ FinishedMaps view_consensus(const UnstructuredSampler& sampler, const std::vecto
     for (int begin = 0; begin < height; begin += rows_at_once) {
       control.throw_if_cancelled();
       const RowRange band{begin, std::min(begin + rows_at_once, height)};
-      const RowRange reached = sampler.rows_needed(ref, band, HypothesisRange{0, 1}, height);
+      const RowRange reached =
+          sampler.rows_needed(ref, band, HypothesisRange{-kReach, 1 + kReach}, height);
       std::vector<Witness> witnesses;
       for (const int place : asked)
         witnesses.push_back({sampler.way(ref, active[place]), sampler.way(active[place], ref),
-                             Claims(maps, place, reached), Claims(width, band)});
-      agree_on_band(Council(tolerance, std::move(witnesses)), maps, int(i), band, agreed);
+                             Claims(maps, place, reached, pass), Claims(width, band)});
+      agree_on_band(Council(pass, std::move(witnesses)), maps, int(i), band, agreed);
     }
   }
-  control.progress("agreement", 1, 1);
   return agreed;
+}
+
+}  // namespace
+
+FinishedMaps view_consensus(const UnstructuredSampler& sampler, const std::vector<int>& active,
+                            FinishedMaps maps, double step, const std::string& folder,
+                            const RunControl& control, std::size_t bytes_at_once) {
+  for (int i = 0; i < kPasses; ++i)
+    maps = agree(sampler, active, maps, {i, float(kSameEstimate * step)}, folder, control,
+                 bytes_at_once);
+  control.progress("agreement", 1, 1);
+  return maps;
 }
 
 }  // namespace gigaray

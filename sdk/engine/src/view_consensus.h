@@ -13,7 +13,7 @@
 namespace gigaray {
 
 /// What estimates may differ by and still be one, in steps of the hypotheses.
-inline constexpr float kSameEstimate = 2;
+inline constexpr float kSameEstimate = 3;
 
 /// Holds the depth of posed photographs against each other (docs/method.md, "Agreement of posed
 /// views"). A pixel takes the estimate, its own or one that another view has there, that most views
@@ -27,7 +27,7 @@ inline constexpr float kSameEstimate = 2;
 /// was asked. Levels stay, and so does what has no estimate. Throws Error(kCancelled), and
 /// Error(kIo) when the folder is full.
 FinishedMaps view_consensus(const UnstructuredSampler& sampler, const std::vector<int>& active,
-                            const FinishedMaps& maps, double step, const std::string& folder,
+                            FinishedMaps maps, double step, const std::string& folder,
                             const RunControl& control, std::size_t bytes_at_once = 128 << 20);
 
 }  // namespace gigaray
