@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <functional>
 
@@ -53,7 +55,11 @@ class ViewConsensus : public testing::Test {
   struct Row {
     std::vector<float> hypothesis = std::vector<float>(kWidth), confidence = hypothesis;
     std::vector<std::int8_t> level = std::vector<std::int8_t>(kWidth);
-    bool operator==(const Row&) const = default;
+    bool operator==(const Row& other) const {
+      const auto same = [](float a, float b) { return a == b || (std::isnan(a) && std::isnan(b)); };
+      return std::ranges::equal(hypothesis, other.hypothesis, same) &&
+             std::ranges::equal(confidence, other.confidence, same) && level == other.level;
+    }
   };
   static Row row_of(const FinishedMaps& maps, int place, int v) {
     Row row;

@@ -14,6 +14,7 @@
 
 namespace gigaray {
 namespace {
+
 /// Other views that are asked: the nearest, which see the same.
 constexpr std::size_t kMostAsked = 8;
 /// The view's own estimate was found with its own pixels: it counts so many times.
@@ -102,9 +103,12 @@ class Claims {
     if (!(u >= 0 && v >= rows_.begin && left + 1 < width_ && top + 1 < rows_.end)) return *nearest;
     const Claim* upper = row(top) + left;
     const Claim* lower = row(top + 1) + left;
-    const auto [least, most] = std::minmax(
-        {upper[0].hypothesis, upper[1].hypothesis, lower[0].hypothesis, lower[1].hypothesis});
-    if (!(most - least <= most_apart)) return *nearest;
+    const std::array corners{upper[0].hypothesis, upper[1].hypothesis, lower[0].hypothesis,
+                             lower[1].hypothesis};
+    const auto is_unknown = [](float hypothesis) { return std::isnan(hypothesis); };
+    if (std::ranges::any_of(corners, is_unknown)) return *nearest;
+    const auto [least, most] = std::ranges::minmax(corners);
+    if (most - least > most_apart) return *nearest;
     const float x = float(u) - float(left), y = float(v) - float(top);
     const auto mean = [&](auto field) {
       const float above = field(upper[0]) + x * (field(upper[1]) - field(upper[0]));
@@ -121,7 +125,7 @@ class Claims {
   std::vector<Claim> claims_;
 };
 
-/// Another view, and what it says of the pixels of the reference.
+/// Another view, and what it says of the pixels of the reference: hypotheses alone.
 struct Witness {
   UnstructuredSampler::Way to, from;
   Claims own, here;
@@ -134,12 +138,10 @@ void carry_over(Witness& witness) {
       const Claim& claim = witness.own.row(v)[u];
       if (std::isnan(claim.hypothesis)) continue;
       const auto there = witness.from(Ray{double(u), double(v), claim.hypothesis});
-      Claim* seen = there ? witness.here.at(there->u, there->v) : nullptr;
-      if (!seen) continue;
-      const Claim carried{float(there->hypothesis), claim.right};
-      if (std::isnan(seen->hypothesis) || carried.hypothesis > seen->hypothesis ||
-          (carried.hypothesis == seen->hypothesis && carried.right > seen->right))
-        *seen = carried;
+      if (!there || !is_reached(float(there->hypothesis))) continue;
+      Claim* before = witness.here.at(there->u, there->v);
+      if (before && !(before->hypothesis >= float(there->hypothesis)))
+        before->hypothesis = float(there->hypothesis);
     }
 }
 
@@ -282,8 +284,9 @@ FinishedMaps agree(const UnstructuredSampler& sampler, const std::vector<int>& a
     for (int begin = 0; begin < height; begin += rows_at_once) {
       control.throw_if_cancelled();
       const RowRange band{begin, std::min(begin + rows_at_once, height)};
-      const RowRange reached =
-          sampler.rows_needed(ref, band, HypothesisRange{-kReach, 1 + kReach}, height);
+      // A row more: what is carried over is rounded to the nearest.
+      const RowRange reached = sampler.rows_needed(ref, grown(band, 1, height),
+                                                   HypothesisRange{-kReach, 1 + kReach}, height);
       std::vector<Witness> witnesses;
       for (const int place : asked)
         witnesses.push_back({sampler.way(ref, active[place]), sampler.way(active[place], ref),
