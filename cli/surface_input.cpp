@@ -79,6 +79,8 @@ void SurfaceInput::declare(CLI::App& app) {
          "fifths of those that should)")
       ->check(CLI::Range(0, 1000))
       ->type_name("N");
+  app.add_flag("--keep-ground", points.keeps_plain_ground,
+               "Keep points of the white or black that is half of the border of every picture");
 }
 
 double SurfaceInput::view_bytes(double pixels, int num_views) {
@@ -108,6 +110,9 @@ DepthViews SurfaceInput::open(const RunControl& control) const {
 void print(const PointCounts& counts, int num_views, const PointOptions& options) {
   fmt::print("pixels        {} of {} views\n", counts.pixels, num_views);
   fmt::print("no estimate   {}\n", counts.without_estimate);
+  if (counts.ground > 0)
+    fmt::print("plain ground  {} of the white or black around what all views show\n",
+               counts.ground);
   fmt::print("unsure        {} with a confidence below {:g}\n", counts.unsure,
              options.least_confidence);
   fmt::print("too far       {} whose depth could be twice as large\n", counts.too_far);
@@ -118,13 +123,10 @@ void print(const PointCounts& counts, int num_views, const PointOptions& options
 }
 
 nlohmann::ordered_json as_json(const PointCounts& counts) {
-  return {{"pixels", counts.pixels},
-          {"without_estimate", counts.without_estimate},
-          {"unsure", counts.unsure},
-          {"too_far", counts.too_far},
-          {"contradicted", counts.contradicted},
-          {"unconfirmed", counts.unconfirmed},
-          {"points", counts.points}};
+  return {{"pixels", counts.pixels},           {"without_estimate", counts.without_estimate},
+          {"plain_ground", counts.ground},     {"unsure", counts.unsure},
+          {"too_far", counts.too_far},         {"contradicted", counts.contradicted},
+          {"unconfirmed", counts.unconfirmed}, {"points", counts.points}};
 }
 
 void print_origin(const Eigen::Vector3d& origin) {

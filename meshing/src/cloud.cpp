@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "gigaray/error.h"
+#include "plain_ground.h"
 #include "thin_cloud.h"
 #include "tile_store.h"
 
@@ -82,8 +83,9 @@ void collect(const DepthViews& views, const CloudOptions& options, SurfaceTolera
     std::vector<DepthView> witnesses;
     for (const int witness : witnesses_of(views.cameras, view, options.points.most_witnesses))
       witnesses.push_back(views.read(witness));
-    const DepthView own = views.read(view);
-    const KeptPixels kept = keep_pixels(own, witnesses, tolerance, options.points);
+    DepthView own = views.read(view);
+    KeptPixels kept = keep_pixels(own, witnesses, tolerance, options.points);
+    own.inverse_depth = std::move(kept.inverse_depth);
     report.pixels += kept.counts;
     const PointCloud points = points_of(own, kept, tolerance);
     const std::vector<int> levels = options.voxel > 0 ? std::vector<int>(points.size(), 0)
@@ -127,10 +129,11 @@ void thin(TileStore& store, const CloudOptions& options, double& voxel, const Ru
 
 }  // namespace
 
-CloudReport build_cloud(const DepthViews& in_scene, const CloudOptions& options,
+CloudReport build_cloud(const DepthViews& all, const CloudOptions& options,
                         const std::function<void(const PointCloud&)>& take,
                         const RunControl& control) {
   check(options);
+  const DepthViews in_scene = without_plain_ground(all, options.points.keeps_plain_ground, control);
   const Survey seen = survey(in_scene, control);
   const auto tolerance = SurfaceTolerance::of(seen.range);
   const auto [views, frame_origin] = nearby(in_scene, seen.spacing);

@@ -47,7 +47,13 @@ NearbyViews nearby(const DepthViews& views, double spacing) {
 
 SurfaceTolerance SurfaceTolerance::of(InverseDepthRange range) {
   const double span = range.max - range.min;
-  return {float(0.01 * span), float(0.01 * span)};
+  SurfaceTolerance result;
+  result.between_views = result.between_pixels = float(0.01 * span);
+  return result;
+}
+
+float SurfaceTolerance::at(float inverse_depth, float finest) const {
+  return std::min(between_views, std::max(finest, between_views_relative * inverse_depth));
 }
 
 Survey survey(const DepthViews& views, const RunControl& control) {

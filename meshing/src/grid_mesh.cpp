@@ -7,6 +7,7 @@
 
 #include "gigaray/error.h"
 #include "gigaray/parallel.h"
+#include "plain_ground.h"
 #include "witness.h"
 
 namespace gigaray {
@@ -25,8 +26,9 @@ Mask covered_by(const std::vector<Part>& parts, const DepthView& view, const Mas
                 SurfaceTolerance tolerance) {
   Mask covered(keep.width(), keep.height());
   const auto shows = [&](const Part& part, const Eigen::Vector3d& point) {
-    return sight_of(part.camera, part.inverse_depth, point, tolerance.between_views,
-                    tolerance.between_pixels) == Sight::kSees;
+    return look_at(part.camera, part.inverse_depth, point, tolerance.between_views,
+                   tolerance.between_pixels)
+               .sight == Sight::kSees;
   };
   parallel_for(
       keep.height(),
@@ -153,8 +155,9 @@ std::vector<int> farthest_first(const std::vector<Camera>& cameras) {
   return order;
 }
 
-SurfaceMesh grid_mesh(const DepthViews& in_scene, const PointOptions& options, PointCounts* counts,
+SurfaceMesh grid_mesh(const DepthViews& all, const PointOptions& options, PointCounts* counts,
                       const RunControl& control) {
+  const DepthViews in_scene = without_plain_ground(all, options.keeps_plain_ground, control);
   const Survey seen = survey(in_scene, control);
   const auto tolerance = SurfaceTolerance::of(seen.range);
   const auto [views, origin] = nearby(in_scene, seen.spacing);
@@ -167,8 +170,9 @@ SurfaceMesh grid_mesh(const DepthViews& in_scene, const PointOptions& options, P
     std::vector<DepthView> witnesses;
     for (const int witness : witnesses_of(views.cameras, view, options.most_witnesses))
       witnesses.push_back(views.read(witness));
-    const DepthView own = views.read(view);
-    const KeptPixels kept = keep_pixels(own, witnesses, tolerance, options);
+    DepthView own = views.read(view);
+    KeptPixels kept = keep_pixels(own, witnesses, tolerance, options);
+    own.inverse_depth = std::move(kept.inverse_depth);
     if (counts) *counts += kept.counts;
     const Mask covered = covered_by(parts, own, kept.keep, tolerance);
     if (mesh.positions.size() + kept.keep.size() >= kNoVertex)

@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 
@@ -35,6 +36,58 @@ Eigen::Vector3d tangent(const DepthView& view, int u, int v, int du, int dv, flo
          point_of(view, behind ? u - du : u, behind ? v - dv : v);
 }
 
+/// How far a point in the middle of the view moves in the witness's picture, px per inverse depth.
+double parallax(const Camera& view, const Camera& witness, double inverse_depth) {
+  constexpr double kStep = 1e-3;
+  const auto place = [&](double w) {
+    return witness.project(view.back_project(0.5 * view.width, 0.5 * view.height, 1 / w));
+  };
+  const Eigen::Vector3d from = place(inverse_depth), to = place((1 + kStep) * inverse_depth);
+  return from.z() > 0 && to.z() > 0 ? (to - from).head<2>().norm() / (kStep * inverse_depth) : 0;
+}
+
+/// The difference of inverse depths that is a pixel in the picture of the witness that tells most.
+float finest_difference(const DepthView& view, std::span<const DepthView> witnesses) {
+  std::vector<float> known;
+  for (const float w : view.inverse_depth)
+    if (w > 0 && std::isfinite(w)) known.push_back(w);
+  if (known.empty()) return 0;
+  const auto middle = known.begin() + std::ptrdiff_t(known.size() / 2);
+  std::nth_element(known.begin(), middle, known.end());
+  double most = 0;
+  for (const DepthView& witness : witnesses)
+    most = std::max(most, parallax(view.camera, witness.camera, *middle));
+  return most > 0 ? float(1 / most) : std::numeric_limits<float>::infinity();
+}
+
+/// What witnesses say of a point.
+class Hearing {
+ public:
+  /// tolerance: of inverse depths.
+  Hearing(float inverse_depth, float tolerance) : tolerance_(tolerance / inverse_depth) {}
+
+  void add(const Look& look) {
+    ++count_[int(look.sight)];
+    const float off = (look.ratio - 1) / tolerance_, spread = look.spread / tolerance_;
+    if (!(std::abs(off) < kReach)) return;
+    const float closeness = 1 - off * off / (kReach * kReach);
+    // Between pixels far apart, at rims and edges, depth is not what is interpolated.
+    const float weight = closeness * closeness / (1 + spread * spread);
+    weight_ += weight;
+    sum_ += weight * off;
+  }
+
+  int count(Sight sight) const { return count_[int(sight)]; }
+  /// Of the inverse depth that they and the view itself agree on, to the view's own.
+  float ratio() const { return 1 + tolerance_ * sum_ / weight_; }
+
+ private:
+  static constexpr float kReach = 2;  ///< of the biweight, in tolerances
+  float tolerance_;
+  std::array<int, 4> count_{};
+  float weight_ = 1, sum_ = 0;
+};
+
 /// Views that must see a point when so many should.
 int usual_support(int should_see) {
   constexpr int kLeast = 2;
@@ -46,6 +99,7 @@ int usual_support(int should_see) {
 PointCounts& PointCounts::operator+=(const PointCounts& other) {
   pixels += other.pixels;
   without_estimate += other.without_estimate;
+  ground += other.ground;
   unsure += other.unsure;
   too_far += other.too_far;
   contradicted += other.contradicted;
@@ -81,28 +135,30 @@ KeptPixels keep_pixels(const DepthView& view, std::span<const DepthView> witness
                     std::to_string(options.least_support.value_or(0)) + " and " +
                     std::to_string(options.least_confidence));
   const int width = view.inverse_depth.width(), height = view.inverse_depth.height();
-  KeptPixels kept{Mask(width, height), FloatMap(width, height), {}};
+  KeptPixels kept{Mask(width, height), FloatMap(width, height), view.inverse_depth, {}};
+  const float finest = finest_difference(view, witnesses);
   std::vector<PointCounts> counts(height);
   const auto keep = [&](int u, int v, PointCounts& row) {
     const float w = view.inverse_depth(u, v);
     ++row.pixels;
+    if (w == 0) return ++row.ground, false;
     if (!(w > 0) || !std::isfinite(w)) return ++row.without_estimate, false;
     if (!view.confidence.empty() && !(view.confidence(u, v) >= options.least_confidence))
       return ++row.unsure, false;
     if (w < kTooFar * tolerance.between_views) return ++row.too_far, false;
     const Eigen::Vector3d point = point_of(view, u, v);
-    int sees = 0, through = 0, unclear = 0;
-    for (const DepthView& witness : witnesses) {
-      const Sight sight = sight_of(witness.camera, witness.inverse_depth, point,
-                                   tolerance.between_views, tolerance.between_pixels);
-      sees += sight == Sight::kSees;
-      through += sight == Sight::kSeesThrough;
-      unclear += sight == Sight::kUnclear;
-    }
+    const float between_views = tolerance.at(w, finest);
+    Hearing hearing(w, between_views);
+    for (const DepthView& witness : witnesses)
+      hearing.add(look_at(witness.camera, witness.inverse_depth, point, between_views,
+                          tolerance.between_pixels));
+    const int sees = hearing.count(Sight::kSees), through = hearing.count(Sight::kSeesThrough);
+    const int unclear = hearing.count(Sight::kUnclear);
     kept.support(u, v) = float(sees);
     if (through > sees) return ++row.contradicted, false;
     const int wanted = options.least_support.value_or(usual_support(sees + through + unclear));
     if (sees < std::min(wanted, int(witnesses.size()))) return ++row.unconfirmed, false;
+    kept.inverse_depth(u, v) = w * hearing.ratio();
     return ++row.points, true;
   };
   parallel_for(

@@ -109,6 +109,51 @@ TEST_F(ViewPoints, UsuallyFourFifthsOfThoseThatShouldSeeAPointMustSeeIt) {
   EXPECT_TRUE(keeps(std::nullopt));
 }
 
+TEST_F(ViewPoints, AreWhereTheViewsAgree) {
+  const std::vector<Camera> fine = cameras_on_an_arc(7, 4 * kSize);
+  const DepthViews noisy = views_of(sphere(), fine, {.noise = 0.001});
+  const DepthView view = noisy.read(3), exact = views_of(sphere(), fine).read(3);
+  std::vector<DepthView> witnesses;
+  for (const int other : witnesses_of(noisy.cameras, 3, 12)) witnesses.push_back(noisy.read(other));
+  const KeptPixels kept = keep_pixels(view, witnesses, tolerance, {});
+  double before = 0, after = 0;
+  for (int v = 0; v < view.camera.height; ++v)
+    for (int u = 0; u < view.camera.width; ++u) {
+      if (!kept.keep(u, v)) continue;
+      before += std::pow(view.inverse_depth(u, v) - exact.inverse_depth(u, v), 2);
+      after += std::pow(kept.inverse_depth(u, v) - exact.inverse_depth(u, v), 2);
+    }
+  // Seven independent values would leave 0.38, with weights a little more.
+  EXPECT_LT(std::sqrt(after / before), 0.6);
+}
+
+TEST(SurfaceTolerances, AreAHundredthOfTheDepthWhereViewsTellThatApart) {
+  const SurfaceTolerance tolerance = SurfaceTolerance::of({0.2f, 1.2f});
+  EXPECT_FLOAT_EQ(tolerance.at(0.25f, 0.001f), 0.0025f);
+  EXPECT_FLOAT_EQ(tolerance.at(0.25f, 0.004f), 0.004f);  // a pixel there is more
+  EXPECT_FLOAT_EQ(tolerance.at(0.25f, 0.5f), 0.01f);     // of the range
+  EXPECT_FLOAT_EQ(tolerance.at(1.2f, 0.001f), 0.01f);
+}
+
+TEST_F(ViewPoints, FarAwayHalfAMetreIsNotTheSamePlace) {
+  // A wall at 4 and something near, so that a hundredth of the range is 3.6 % of the depth there.
+  const Solid solid{"ball before a wall", [](const Eigen::Vector3d& x) {
+                      const Eigen::Vector3d ball(0.6, 0, -2.4);
+                      return std::min((x - ball).norm() - 0.1, 0.8 - x.z());
+                    }};
+  const DepthViews room = views_of(solid, cameras_on_an_arc(7, 4 * kSize));
+  const auto room_tolerance = SurfaceTolerance::of(survey(room, {}).range);
+  std::vector<DepthView> witnesses;
+  for (const int other : witnesses_of(room.cameras, 3, 12)) witnesses.push_back(room.read(other));
+  DepthView view = room.read(3);
+  ASSERT_GT(room_tolerance.between_views, 0.025 * view.inverse_depth(140, 100));
+  view.inverse_depth(140, 100) *= 1.005f;
+  view.inverse_depth(150, 100) *= 1.025f;
+  const KeptPixels kept = keep_pixels(view, witnesses, room_tolerance, {});
+  EXPECT_EQ(kept.keep(140, 100), 1);
+  EXPECT_EQ(kept.keep(150, 100), 0);
+}
+
 TEST_F(ViewPoints, AbsurdOptionsAreRefused) {
   PointOptions options;
   options.least_support = -1;

@@ -42,13 +42,18 @@ NearbyViews nearby(const DepthViews& views, double spacing);
 
 /// How far inverse depths may be apart and still belong to one surface, 1 / scene unit.
 struct SurfaceTolerance {
-  /// Between views, and what depth may be off: a hundredth of the range that is seen.
+  /// Between views at most, and what depth may be off: a hundredth of the range that is seen.
   float between_views = 0;
+  /// Between views, share of the inverse depth; > 0.
+  float between_views_relative = 0.01f;
   /// Between neighbouring pixels at least; a slope of up to 80° is allowed too.
   float between_pixels = 0;
 
   /// range: of the inverse depths of all views.
   static SurfaceTolerance of(InverseDepthRange range);
+  /// Between views at an inverse depth. finest: what views can tell apart, 1 / scene unit; no less
+  /// is asked for.
+  float at(float inverse_depth, float finest) const;
 };
 
 /// What all views see on the whole, from a sample of their pixels.

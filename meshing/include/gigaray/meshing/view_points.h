@@ -17,6 +17,8 @@ struct PointOptions {
   /// Empty: two, and kSupportShare of those that have its place in their pictures, know a depth
   /// there and have nothing before it.
   std::optional<int> least_support;
+  /// Points of a white or black ground, if at least half of the border of every picture is that.
+  bool keeps_plain_ground = false;
   int most_witnesses = 12;  ///< Other views that are asked, spread over all that look the same way.
 };
 
@@ -27,6 +29,7 @@ inline constexpr double kSupportShare = 0.8;
 struct PointCounts {
   std::uint64_t pixels = 0;
   std::uint64_t without_estimate = 0;
+  std::uint64_t ground = 0;        ///< of the plain ground around an object
   std::uint64_t unsure = 0;        ///< less confidence than asked for
   std::uint64_t too_far = 0;       ///< depth could as well be half or twice as large
   std::uint64_t contradicted = 0;  ///< more views see through the point than see it
@@ -41,12 +44,18 @@ struct PointCounts {
 std::vector<int> witnesses_of(const std::vector<Camera>& cameras, int view, int most);
 
 /// 1 for the pixels of a view that become points, and how many witnesses see each there (v, u).
-/// Throws Error(kInvalidArgument) for options out of range.
 struct KeptPixels {
   Mask keep;
   FloatMap support;
+  /// Of the view; where pixels are kept, what it and its witnesses agree on: the mean of what they
+  /// have there, weighed by Tukey's biweight of the difference with twice the tolerance.
+  FloatMap inverse_depth;
   PointCounts counts;
 };
+
+/// A witness sees a point when it has the point's depth there within the tolerance, which is a
+/// pixel in the picture of the witness with the widest base at least. Throws
+/// Error(kInvalidArgument) for options out of range.
 KeptPixels keep_pixels(const DepthView& view, std::span<const DepthView> witnesses,
                        SurfaceTolerance tolerance, const PointOptions& options);
 
