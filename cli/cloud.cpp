@@ -53,9 +53,9 @@ void run(const Settings& settings, const RunControl& control) {
       AtomicFile(settings.output.path, settings.input.rules(settings.output), {".ply", ".pcd"}),
       settings.output.path.extension() == ".pcd" ? CloudFormat::kPcd : CloudFormat::kPly);
   const auto begin = std::chrono::steady_clock::now();
-  const DepthViews views = settings.input.open(control);
+  const auto [views, points] = settings.input.open(control);
   CloudOptions options = settings.cloud;
-  options.points = settings.input.points;
+  options.points = points;
   const Needs needs = needs_of(views);
   const Camera& camera = views.cameras.front();
   settings.memory.require(std::min(needs.all, needs.least),

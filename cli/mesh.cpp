@@ -46,11 +46,12 @@ struct Settings {
 /// What a surface over points takes for each of them.
 double point_bytes(const Settings& settings) { return settings.method == "poisson" ? 4400 : 2400; }
 
-SurfaceMesh surface_of(const Settings& settings, const DepthViews& views, PointCounts& counts,
-                       const RunControl& control) {
-  if (settings.method == "grid") return grid_mesh(views, settings.input.points, &counts, control);
+SurfaceMesh surface_of(const Settings& settings, const SurfaceInput::Opened& input,
+                       PointCounts& counts, const RunControl& control) {
+  const auto& [views, points] = input;
+  if (settings.method == "grid") return grid_mesh(views, points, &counts, control);
   CloudOptions options;
-  options.points = settings.input.points;
+  options.points = points;
   options.voxel = settings.voxel;
   if (settings.voxel == 0) options.most_points = settings.most_points;
   PointCloud cloud;
@@ -197,12 +198,13 @@ class Output {
 void run(const Settings& settings, const RunControl& control) {
   Output output(settings);
   const auto begin = std::chrono::steady_clock::now();
-  const DepthViews views = settings.input.open(control);
+  const SurfaceInput::Opened input = settings.input.open(control);
+  const DepthViews& views = input.views;
   settings.memory.require(bytes_before_surface(settings, views), text_of(views));
   PointCounts counts;
   MeshCleaned done;
   SurfaceMesh surface =
-      settings.input.blamed([&] { return surface_of(settings, views, counts, control); });
+      settings.input.blamed([&] { return surface_of(settings, input, counts, control); });
   // How large the surface is shows only now; cleaning and the report take most.
   settings.memory.require(bytes_of_surface(surface),
                           fmt::format("a surface of {} vertices", surface.positions.size()));
@@ -242,7 +244,7 @@ void run(const Settings& settings, const RunControl& control) {
     fmt::print("{}\n", root.dump(2));
     return;
   }
-  print(counts, views.size(), settings.input.points);
+  print(counts, views.size(), input.points);
   if (done.pieces_dropped > 0)
     fmt::print("small pieces  {} with fewer than {} faces are left out\n", done.pieces_dropped,
                settings.cleaning.least_faces);

@@ -69,10 +69,11 @@ void SurfaceInput::declare(CLI::App& app) {
       ->capture_default_str();
   app.add_option("--input", input, "Where the pictures are, when they are no more where they were")
       ->type_name("INPUT");
-  app.add_option("--min-confidence", points.least_confidence, "Leave out what is less sure")
+  app.add_option("--min-confidence", least_confidence,
+                 "Leave out what is less sure (default: 0.4 of posed photographs, whose confidence "
+                 "is the share within 1 % of the depth, else 0.1)")
       ->check(CLI::Range(0.0, 1.0))
-      ->type_name("C")
-      ->capture_default_str();
+      ->type_name("C");
   app.add_option_function<int>(
          "--min-support", [this](int support) { points.least_support = support; },
          "Leave out points that fewer other views see where they are (default: two, and four "
@@ -88,7 +89,7 @@ double SurfaceInput::view_bytes(double pixels, int num_views) {
   return kPixel * pixels * std::min<double>(num_views, ViewReader::kMostKept);
 }
 
-DepthViews SurfaceInput::open(const RunControl& control) const {
+SurfaceInput::Opened SurfaceInput::open(const RunControl& control) const {
   DepthScene scene = open_depth_scene(result, input, 0);
   std::vector<int> chosen = parse_views(views, scene.light_field);
   if (chosen.empty()) chosen = all_views(scene.light_field.num_views());
@@ -99,12 +100,16 @@ DepthViews SurfaceInput::open(const RunControl& control) const {
         "(--focal-px and --baseline of `gigaray depth` state them)");
   if (const std::string note = note_on_scale(scene.light_field); !note.empty())
     control.message(note);
-  DepthViews result;
+  Opened opened{{}, points};
+  if (scene.light_field.kind == LightFieldKind::kUnstructured)
+    opened.points.least_confidence = kPosedConfidence;
+  if (least_confidence) opened.points.least_confidence = *least_confidence;
+  DepthViews& result = opened.views;
   for (const int view : chosen) result.cameras.push_back(rig.camera(view));
   const auto reader =
       std::make_shared<ViewReader>(std::move(scene), std::move(rig), std::move(chosen));
   result.read = [reader](int view) { return reader->read(view); };
-  return result;
+  return opened;
 }
 
 void print(const PointCounts& counts, int num_views, const PointOptions& options) {

@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 
 #include "gigaray/error.h"
@@ -18,7 +19,12 @@ namespace gigaray::cli {
 struct SurfaceInput {
   std::filesystem::path result, input;
   std::string views = "all";
-  PointOptions points;
+  std::optional<double> least_confidence;  ///< empty: kPosedConfidence, or that of PointOptions
+  PointOptions points;                     ///< as stated; see Opened
+
+  /// Of posed photographs confidence is the share of pixels within 1 % of the depth; where it is
+  /// less, more than half of a cloud's wrong points come from (docs/accuracy.md).
+  static constexpr double kPosedConfidence = 0.4;
 
   void declare(CLI::App& app);
   /// Of an output of the command.
@@ -27,8 +33,12 @@ struct SurfaceInput {
   /// Bytes of the views that are kept in memory at once: `pixels` of a picture, so many views.
   static double view_bytes(double pixels, int num_views);
 
-  /// The chosen views with cameras in scene units. Tells when these are not known.
-  DepthViews open(const RunControl& control) const;
+  struct Opened {
+    DepthViews views;     ///< the chosen ones, with cameras in scene units
+    PointOptions points;  ///< with the defaults for these views
+  };
+  /// Tells when scene units are not known.
+  Opened open(const RunControl& control) const;
 
   /// work(); what it finds wrong with the depth is said of `result`.
   template <class Work>

@@ -122,6 +122,9 @@ MeshSight::Sample MeshSight::sample(const Eigen::Vector3f& place, float toleranc
   result.is_at_rim = around_(u, v) > place.z() + 2 * tolerance;
   const float own = view_.inverse_depth(u, v);
   result.is_unknown = !(own > 0);
+  // Masked pixels, as beside what a lens without its distortion shows, are black and tell nothing.
+  const std::uint8_t* colour = &view_.picture(u, v, 0);
+  if (std::isnan(own) && (colour[0] | colour[1] | colour[2]) == 0) return {};
   result.is_contradicted = std::abs(own - place.z()) > 2 * tolerance;
   return result;
 }

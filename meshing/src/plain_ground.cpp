@@ -85,8 +85,12 @@ std::optional<Rgb8> plain_ground(const DepthViews& views, const RunControl& cont
   Rgb8 colour{};
   for (int view = 0; view < views.size(); ++view) {
     control.throw_if_cancelled();
-    const Picture picture = views.read(view).picture;
-    const std::vector<Pixel> border = border_of(picture);
+    const DepthView own = views.read(view);
+    const Picture& picture = own.picture;
+    std::vector<Pixel> border = border_of(picture);
+    // Masked: beside what a lens without its distortion shows, for one.
+    std::erase_if(border, [&](Pixel p) { return std::isnan(own.inverse_depth(p.u, p.v)); });
+    if (border.empty()) return {};
     if (view == 0) colour = median_of(picture, border);
     if (!is_clipped(colour)) return {};
     const auto plain = std::ranges::count_if(

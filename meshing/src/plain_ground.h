@@ -9,8 +9,9 @@
 
 namespace gigaray {
 
-/// White or black, when at least half of the border of every picture is: objects are photographed
-/// on such a ground. Nothing when it is not, or there is no second view.
+/// White or black, when at least half of the border of every picture is, as far as it has an
+/// estimate: objects are photographed on such a ground. Nothing when it is not, or there is no
+/// second view.
 std::optional<Rgb8> plain_ground(const DepthViews& views, const RunControl& control);
 
 /// Views whose ground has no points: any depth fits a plain colour, so that next to an object it

@@ -67,6 +67,8 @@ TEST(PlainGround, IsWhiteOrBlackInAllViews) {
   };
   EXPECT_FALSE(plain_ground(views, {}));
   EXPECT_FALSE(plain_ground(views_of(rod(), cameras_on_an_arc(3, kSize)), {}));
+  // Black because it is masked.
+  EXPECT_FALSE(plain_ground(views_of(sphere(), cameras_on_an_arc(3, kSize)), {}));
 }
 
 TEST(PlainGround, OfHolesIsUnknownAndMasksStayMasks) {

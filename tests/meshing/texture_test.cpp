@@ -200,6 +200,26 @@ TEST(Texture, TakesNothingFromWhatHidesASurface) {
   EXPECT_EQ(wrong(mesh), 0);
 }
 
+TEST(Texture, TakesNothingFromMasks) {
+  const Paint bright = [](const Eigen::Vector3d&) { return Eigen::Array3d(200, 210, 220); };
+  DepthViews views = painted(views_of(tilted_planes(), cameras_on_an_arc(3, kSize)), bright);
+  const SurfaceMesh mesh = cleaned(grid_mesh(views, {}, nullptr, {}), {}, nullptr);
+  views.read = [read = views.read](int index) {
+    DepthView view = read(index);
+    for (int v = 0; v < view.camera.height; ++v)
+      for (int u = 0; u < 12; ++u) {
+        view.inverse_depth(u, v) = kNoEstimate;
+        for (int c = 0; c < 3; ++c) view.picture(u, v, c) = 0;
+      }
+    return view;
+  };
+  const SurfaceTexture texture = texture_of(mesh, views, {}, nullptr, {});
+  int dark = 0;
+  for (std::size_t face = 0; face < mesh.faces.size(); ++face)
+    dark += colour_of(texture, face)[0] < 120;
+  EXPECT_LT(dark, 0.002 * double(mesh.faces.size()));
+}
+
 TEST(Texture, WhatNoViewSeesHasTheColoursOfItsVertices) {
   const DepthViews views = painted(views_of(tilted_planes(), cameras_on_an_arc(3, kSize)), stripes);
   SurfaceMesh mesh = cleaned(grid_mesh(views, {}, nullptr, {}), {}, nullptr);
