@@ -22,8 +22,8 @@ struct SurfaceInput {
   std::optional<double> least_confidence;  ///< empty: kPosedConfidence, or that of PointOptions
   PointOptions points;                     ///< as stated; see Opened
 
-  /// Of posed photographs confidence is the share of pixels within 1 % of the depth; where it is
-  /// less, more than half of a cloud's wrong points come from (docs/accuracy.md).
+  /// Of posed photographs, whose confidence is the share of pixels within 1 % of the depth: what is
+  /// less sure makes half of the wrong points of a cloud and a sixth of all (docs/accuracy.md).
   static constexpr double kPosedConfidence = 0.4;
 
   void declare(CLI::App& app);

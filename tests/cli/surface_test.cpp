@@ -67,6 +67,7 @@ TEST_F(SurfaceCommands, CloudIsAPlyFileOfTheScene) {
   EXPECT_EQ(text_of("again.ply"), text);
   const json& filters = about.at("filters");
   EXPECT_EQ(filters.at("pixels"), 5 * 64 * 49);
+  EXPECT_EQ(filters.at("plain_ground"), 0);
 }
 
 TEST_F(SurfaceCommands, LargerCubesGiveFewerPoints) {
