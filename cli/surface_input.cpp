@@ -70,7 +70,7 @@ void SurfaceInput::declare(CLI::App& app) {
   app.add_option("--input", input, "Where the pictures are, when they are no more where they were")
       ->type_name("INPUT");
   app.add_option("--min-confidence", least_confidence,
-                 "Leave out what is less sure (default: 0.4 of posed photographs, whose confidence "
+                 "Leave out what is less sure (default: 0.6 of posed photographs, whose confidence "
                  "is the share within 1 % of the depth, else 0.1)")
       ->check(CLI::Range(0.0, 1.0))
       ->type_name("C");

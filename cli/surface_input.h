@@ -23,8 +23,8 @@ struct SurfaceInput {
   PointOptions points;                     ///< as stated; see Opened
 
   /// Of posed photographs, whose confidence is the share of pixels within 1 % of the depth: what is
-  /// less sure makes half of the wrong points of a cloud and a sixth of all (docs/accuracy.md).
-  static constexpr double kPosedConfidence = 0.4;
+  /// less sure makes half of a room's wrong points and a seventh of all (docs/accuracy.md).
+  static constexpr double kPosedConfidence = 0.6;
 
   void declare(CLI::App& app);
   /// Of an output of the command.
