@@ -2,27 +2,15 @@
 // Copyright (c) 2026 The Gigaray authors
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "gigaray/light_field.h"
+#include "gigaray/core/light_field.h"
 
 namespace gigaray::cli {
 
-/// A camera in the convention of docs/conventions.md.
-nlohmann::ordered_json camera_json(const Camera& camera);
-
-/// Views that each unstructured view is compared with, itself not counted. Empty when the depths
-/// that the views see are not known, or there are no cameras.
-std::vector<int> count_partners(const LightField& light_field);
-
 /// Lines about the cameras of unstructured views: label, text.
 std::vector<std::pair<std::string, std::string>> describe_cameras(const LightField& light_field);
-
-/// A sentence for who takes distances for metres: views with cameras whose unit nobody stated.
-/// Empty: it is known, or there are no distances.
-std::string note_on_scale(const LightField& light_field);
 
 }  // namespace gigaray::cli

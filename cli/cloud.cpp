@@ -1,49 +1,27 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Gigaray authors
-#include "gigaray/meshing/cloud.h"
-
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <chrono>
 #include <memory>
 
 #include "command.h"
 #include "gigaray/adapters/cloud_file.h"
 #include "gigaray/adapters/path_text.h"
+#include "gigaray/workflows/surface.h"
 #include "memory_option.h"
 #include "numbers.h"
 #include "output_option.h"
-#include "surface_input.h"
+#include "points_options.h"
 
 namespace gigaray::cli {
 namespace {
 
 using nlohmann::ordered_json;
 
-/// Bytes of a run, and of one that keeps its points in a file as far as it can.
-struct Needs {
-  double all, least;
-};
-
-Needs needs_of(const DepthViews& views) {
-  double pixels = 0;
-  for (const Camera& camera : views.cameras)
-    pixels = std::max(pixels, double(camera.width) * camera.height);
-  // A view and the views that bear witness for it, twice, and maps of the one at work.
-  const double reading = SurfaceInput::view_bytes(pixels, views.size()) + 200 * pixels;
-  // Points of all views, in vectors that grow; those of a tile, which is no larger than 512 voxels.
-  constexpr double kPoint = 52, kTilePoint = 40, kTile = 512.0 * 512;
-  const double least_store = 32 << 20;
-  return {
-      kProgramBytes + reading + kPoint * pixels * views.size(),
-      kProgramBytes + reading + least_store + kTilePoint * std::min(pixels, kTile) * views.size()};
-}
-
 struct Settings {
-  SurfaceInput input;
-  CloudOptions cloud;
-  MemoryBudget memory;
+  PointsOptions input;
+  CloudRequest request;
   OutputOption output;
   bool json = false;
 };
@@ -53,21 +31,9 @@ void run(const Settings& settings, const RunControl& control) {
       AtomicFile(settings.output.path, settings.input.rules(settings.output), {".ply", ".pcd"}),
       settings.output.path.extension() == ".pcd" ? CloudFormat::kPcd : CloudFormat::kPly);
   const auto begin = std::chrono::steady_clock::now();
-  const auto [views, points] = settings.input.open(control);
-  CloudOptions options = settings.cloud;
-  options.points = points;
-  const Needs needs = needs_of(views);
-  const Camera& camera = views.cameras.front();
-  settings.memory.require(std::min(needs.all, needs.least),
-                          views_text(views.size(), camera.width, camera.height));
-  // Vectors that grow take up to twice what is in them.
-  if (settings.memory.bytes() < needs.all)
-    options.memory = std::size_t((32 << 20) + (settings.memory.bytes() - needs.least) / 2);
-
-  const CloudReport report = settings.input.blamed([&] {
-    return build_cloud(
-        views, options, [&](const PointCloud& tile) { file.add(tile); }, control);
-  });
+  const ScenePoints points = settings.input.open(control);
+  const CloudReport report = cloud_of(
+      points, settings.request, [&](const PointCloud& tile) { file.add(tile); }, control);
   file.commit(control);
   const double seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
@@ -88,9 +54,10 @@ void run(const Settings& settings, const RunControl& control) {
     fmt::print("{}\n", root.dump(2));
     return;
   }
-  print(report.pixels, views.size(), options.points);
+  print(report.pixels, points.views.size(), points.options);
   fmt::print("merged        {} points into {}, one per cube of {}{:.4g}\n", report.pixels.points,
-             report.merged, settings.cloud.voxel > 0 ? "" : "pixel size, usually ", report.voxel);
+             report.merged, settings.request.cloud.voxel > 0 ? "" : "pixel size, usually ",
+             report.voxel);
   fmt::print("outliers      {} that stand alone\n", report.outliers);
   print_origin(report.origin);
   fmt::print("{}: {} points in {:.1f} s\n", settings.output.path.string(), report.points, seconds);
@@ -103,20 +70,20 @@ Run cloud_command(CLI::App& app) {
   const auto settings = std::make_shared<Settings>();
   settings->input.declare(app);
   settings->output.add_to(app, "scene.ply, or scene.pcd for PCL", "FILE")->required();
-  app.add_option("--voxel", settings->cloud.voxel,
+  app.add_option("--voxel", settings->request.cloud.voxel,
                  "Points in a cube of this size become one, scene units (default: the distance of "
                  "neighbouring pixels there, in steps of two)")
       ->check(above_zero())
       ->type_name("SIZE");
-  app.add_option("--outliers", settings->cloud.outlier_deviations,
+  app.add_option("--outliers", settings->request.cloud.outlier_deviations,
                  "Drop points whose neighbours are farther than usual by so many standard "
                  "deviations; 0: none")
       ->check(zero_or_more())
       ->type_name("X")
       ->capture_default_str();
-  settings->memory.add_to(app,
-                          "up to 52 bytes per pixel of all views; points that don't fit are kept "
-                          "in the folder for temporary files");
+  add_memory_option(app, settings->request.memory,
+                    "up to 52 bytes per pixel of all views; points that don't fit are kept "
+                    "in the folder for temporary files");
   app.add_flag("--json", settings->json, "Print the counts as JSON");
   return [settings](const RunControl& control) { run(*settings, control); };
 }

@@ -5,7 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <functional>
 
-#include "gigaray/run_control.h"
+#include "gigaray/core/run_control.h"
 
 namespace gigaray::cli {
 

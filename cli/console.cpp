@@ -12,6 +12,7 @@
 #include <atomic>
 #include <cmath>
 
+#include "flag_names.h"
 #include "terminal.h"
 
 namespace gigaray::cli {
@@ -78,7 +79,7 @@ Console::Console(RunControl& control) : is_terminal_(isatty(STDERR_FILENO) != 0)
   control.on_progress = [this](const std::string& stage, double done, double total) {
     show_progress(stage, done, total);
   };
-  control.on_message = [this](const std::string& text) { show_message(text); };
+  control.on_message = [this](const std::string& text) { show_message(with_flags(text)); };
   install_handlers();
 }
 
@@ -122,7 +123,7 @@ void Console::show_progress(const std::string& stage, double done, double total)
 void Console::show_message(const std::string& text) {
   const std::lock_guard lock(mutex_);
   clear_bar();
-  to_stderr(text + "\n");
+  to_stderr(with_flags(text) + "\n");
 }
 
 void Console::clear_bar() {

@@ -6,7 +6,7 @@
 #include <mutex>
 #include <string>
 
-#include "gigaray/run_control.h"
+#include "gigaray/core/run_control.h"
 
 namespace gigaray::cli {
 

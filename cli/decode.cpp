@@ -12,9 +12,9 @@
 #include "gigaray/adapters/maps.h"
 #include "gigaray/adapters/pictures.h"
 #include "gigaray/adapters/sparse_file.h"
-#include "gigaray/ray_sampler.h"
+#include "gigaray/core/ray_sampler.h"
+#include "gigaray/workflows/view_list.h"
 #include "output_option.h"
-#include "view_list.h"
 
 namespace gigaray::cli {
 namespace {

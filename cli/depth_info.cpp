@@ -9,13 +9,14 @@
 #include <string>
 #include <vector>
 
-#include "cameras.h"
+#include "flag_names.h"
 #include "gigaray/adapters/depth_folder.h"
 #include "gigaray/adapters/depth_result.h"
 #include "gigaray/adapters/input_file.h"
 #include "gigaray/adapters/path_text.h"
-#include "gigaray/metric_depth.h"
-#include "map_statistics.h"
+#include "gigaray/core/metric_depth.h"
+#include "gigaray/workflows/cameras.h"
+#include "gigaray/workflows/map_statistics.h"
 #include "shell_word.h"
 
 namespace gigaray::cli {
@@ -159,7 +160,8 @@ ordered_json depth_json(const fs::path& folder) {
   root["device"] = about.value("device", ordered_json("unknown"));
   root["seconds"] = number_at(about, "seconds_total");
   root["peak_memory_mib"] = number_at(about, "peak_memory_mib");
-  if (const std::string note = note_on_scale(light_field); !note.empty()) root["note"] = note;
+  if (const std::string note = note_on_scale(light_field); !note.empty())
+    root["note"] = with_flags(note);
   root["next"] = next_lines(folder, light_field, top, disparity);
   return root;
 }

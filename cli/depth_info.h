@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "gigaray/image.h"
-#include "gigaray/light_field.h"
+#include "gigaray/core/image.h"
+#include "gigaray/core/light_field.h"
 
 namespace gigaray::cli {
 

@@ -2,16 +2,10 @@
 // Copyright (c) 2026 The Gigaray authors
 #include "depth_options_cli.h"
 
-#include <fmt/format.h>
-
-#include "depth_range.h"
 #include "did_you_mean.h"
-#include "gigaray/adapters/feature_ranges.h"
-#include "gigaray/adapters/pose_check.h"
-#include "gigaray/camera_order.h"
-#include "memory_option.h"
+#include "gigaray/engine/option_table.h"
+#include "gigaray/workflows/stated_options.h"
 #include "numbers.h"
-#include "view_layout.h"
 
 namespace gigaray::cli {
 
@@ -37,6 +31,7 @@ void add_memory_option(CLI::App& app, double& gib, OpenOptions& open) {
 void DepthRunOptions::add_to(CLI::App& app) {
   add_all_but_preset_to(app);
   add_preset_option(app, preset);
+  preset_option_ = app.get_option("--preset");
   app.add_option(
          "--partners", most_partners,
          "Photographs with cameras: compare each with so many others, those that share most "
@@ -53,11 +48,12 @@ void DepthRunOptions::add_all_but_preset_to(CLI::App& app) {
          "depth, 1 / scene unit (default: from the input, else estimated)")
       ->expected(2)
       ->type_name("MIN MAX");
-  app.add_option(
-         "--hypotheses", hypotheses,
-         "Number of disparities to test, 2 … 4096 (default: 256 for paper, one every 0.035 px for "
-         "auto; of photographs with cameras as many as their distances ask for)")
-      ->type_name("N");
+  hypotheses_option_ =
+      app.add_option("--hypotheses", hypotheses,
+                     "Number of disparities to test, 2 … 4096 (default: 256 for paper, one every "
+                     "0.035 px for auto; of photographs with cameras as many as their distances "
+                     "ask for)")
+          ->type_name("N");
   app.add_option("--device", device,
                  "OpenCL device: index or part of its name, see `gigaray devices`; several with "
                  "commas between (0,1), or `all`, share the rows; `reference` for plain, slow C++")
@@ -79,50 +75,47 @@ void DepthRunOptions::add_depth_to(CLI::App& app) {
       ->type_name("NEAR FAR");
 }
 
+void DepthRunOptions::add_table_to(CLI::App& app) {
+  app.add_option("--set", settings,
+                 "One option of the method, as in winner.median_radius=3; may be repeated. "
+                 "--list-options names all")
+      ->type_name("NAME=VALUE")
+      ->type_size(1)
+      ->allow_extra_args(false);
+  app.add_option("--options", options_file,
+                 "Options of a JSON file, or those that an earlier result was asked for: its "
+                 "folder or its gigaray.json")
+      ->type_name("FILE");
+  app.add_flag_callback(
+      "--list-options", [] { throw CLI::CallForVersion(option_reference(), 0); },
+      "Print all options with ranges, units, meaning and defaults, as a table of Markdown");
+}
+
 BackendChoice DepthRunOptions::backend() const {
   if (device == "reference") return {"reference", ""};
   return {"opencl", device};
 }
 
-namespace {
-
-/// Finding direction and range looks at whole pictures, before the plan of the run: refuses large
-/// ones that alone don't fit. Whether the run does is the plan's matter.
-void require_memory_to_look(const LightField& light_field, const DepthOptions& options) {
-  if (light_field.kind == LightFieldKind::kUnstructured) return;
-  // A decoded picture, its planes of colours and gradients.
-  const double picture = 26.0 * light_field.width * light_field.height;
-  constexpr double kLarge = 128 * double(1 << 20);
-  if (picture < kLarge) return;
-  MemoryBudget(options.memory_bytes / double(1 << 30))
-      .require(2 * kProgramBytes + picture,
-               views_text(light_field.num_views(), light_field.width, light_field.height));
+DepthOptions DepthRunOptions::stated() const {
+  const bool preset_is_stated = preset_option_ && preset_option_->count() > 0;
+  DepthOptions options = options_file.empty()
+                             ? preset_options(preset)
+                             : options_of_file(options_file, preset, preset_is_stated);
+  for (const std::string& setting : settings) set_option(setting, options);
+  if (!disparity.empty()) options.disparity = DisparityRange{disparity[0], disparity[1]};
+  if (hypotheses_option_ && hypotheses_option_->count() > 0) options.hypotheses = hypotheses;
+  if (most_partners != 0) options.most_partners = most_partners;
+  if (memory_gib != 0) options.memory_bytes = memory_gib * double(1 << 30);
+  if (!work_folder.empty()) options.work_folder = work_folder;
+  return options;
 }
 
-}  // namespace
-
-DepthOptions DepthRunOptions::resolve(LightField& light_field, const RunControl& control) const {
-  DepthOptions options = preset_options(preset);
-  if (!disparity.empty()) options.disparity = DisparityRange{disparity[0], disparity[1]};
-  if (!depth.empty()) options.disparity = range_of_depth(depth, light_field);
-  if (hypotheses != 0) options.hypotheses = hypotheses;
-  options.most_partners = most_partners;
-  options.memory_bytes = memory_gib * double(1 << 30);
-  options.work_folder = work_folder;
-  options.check();
-  check(light_field);
-  if (!disparity.empty()) check_inverse_depth(*options.disparity, light_field, control);
-  require_memory_to_look(light_field, options);
-  check_poses(light_field, input.open.convention.has_value(), control);
-  if (!options.disparity) take_range_of_features(light_field, control);
-  settle_layout(input, light_field, control);
-  if (const auto range = check_direction(light_field, control); range && !options.disparity) {
-    options.disparity = range;
-    control.message(
-        fmt::format("disparity range {:.4g} … {:.4g} px per view step, estimated from the pictures",
-                    range->min, range->max));
-  }
-  return options;
+DepthRequest DepthRunOptions::request() const {
+  DepthRequest request;
+  request.options = stated();
+  if (!depth.empty()) request.distances = DistanceRange{depth[0], depth[1]};
+  request.backend = backend();
+  return request;
 }
 
 }  // namespace gigaray::cli

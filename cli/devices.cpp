@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "command.h"
-#include "gigaray/device.h"
-#include "gigaray/tune.h"
+#include "gigaray/engine/device.h"
+#include "gigaray/engine/tune.h"
 
 namespace gigaray::cli {
 namespace {

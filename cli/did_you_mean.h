@@ -6,14 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "gigaray/workflows/did_you_mean.h"
+
 namespace gigaray::cli {
-
-/// The known word that was probably meant: the nearest one by letters added, left out, changed or
-/// swapped, or the only one that begins like it. Empty: none is near.
-std::string nearest_word(const std::string& word, const std::vector<std::string>& known);
-
-/// "; did you mean depth?", or nothing.
-std::string did_you_mean(const std::string& word, const std::vector<std::string>& known);
 
 /// Check of an option whose values are words: "is 'png61'; it must be exr, npy or png16; did you
 /// mean png16?"

@@ -9,13 +9,11 @@
 
 #include "command.h"
 #include "depth_options_cli.h"
-#include "gigaray/adapters/depth_result.h"
 #include "gigaray/adapters/sparse_file.h"
-#include "gigaray/reconstruct.h"
+#include "gigaray/workflows/encode.h"
 #include "memory_option.h"
 #include "numbers.h"
 #include "output_option.h"
-#include "photographs.h"
 
 namespace gigaray::cli {
 namespace {
@@ -65,44 +63,6 @@ void print_text(const SparseFileReport& report, double depth_seconds, double enc
   line("seconds", fmt::format("{:.1f} depth, {:.1f} encoding", depth_seconds, encode_seconds));
 }
 
-/// Slopes and tuples of all views, and the planes of the view that is coded. Without the program.
-double coding_bytes(const LightField& light_field) {
-  return double(light_field.width) * light_field.height * (13.0 * light_field.num_views() + 60);
-}
-
-DisparityOfView computed(const Settings& settings, LightField& light_field,
-                         const RunControl& control) {
-  DepthOptions options = settings.run.resolve(light_field, control);
-  // The estimates stay while the file is written.
-  options.memory_beside = coding_bytes(light_field);
-  const auto depth = std::make_shared<Reconstruction>(
-      reconstruct(light_field, options, settings.run.backend(), control));
-  return [depth](int view) { return depth->view(view).disparity; };
-}
-
-/// What `gigaray depth` wrote. It may have found another direction of travel than was assumed.
-DisparityOfView read(const Settings& settings, LightField& light_field) {
-  const auto depth = std::make_shared<DepthResult>(settings.depth);
-  const LightField& geometry = depth->light_field();
-  if (geometry.width != light_field.width || geometry.height != light_field.height)
-    throw Error(
-        ErrorCode::kBadInput,
-        fmt::format("{}: its maps are {} × {}, the pictures {} × {}", settings.depth.string(),
-                    geometry.width, geometry.height, light_field.width, light_field.height));
-  std::vector<int> map_of_view;
-  for (View& view : light_field.views) {
-    const auto found = std::find_if(geometry.views.begin(), geometry.views.end(),
-                                    [&](const View& other) { return other.name == view.name; });
-    if (found == geometry.views.end())
-      throw Error(ErrorCode::kBadInput,
-                  fmt::format("{}: has no depth of view {}; that of all {} views is needed",
-                              settings.depth.string(), view.name, light_field.num_views()));
-    view = *found;
-    map_of_view.push_back(int(found - geometry.views.begin()));
-  }
-  return [depth, map_of_view](int view) { return depth->disparity(map_of_view[view]); };
-}
-
 void run(const Settings& settings, const RunControl& control) {
   using Clock = std::chrono::steady_clock;
   const auto seconds_since = [](Clock::time_point begin) {
@@ -111,11 +71,12 @@ void run(const Settings& settings, const RunControl& control) {
   std::vector<std::filesystem::path> inputs = settings.run.input.places();
   inputs.push_back(settings.depth);
   AtomicFile file(settings.output.path, settings.output.rules(std::move(inputs)), {".grl"});
-  LightField light_field = open_views(settings.run.input, control);
+  OpenedInput input = open_input(settings.run.input, control);
+  LightField& light_field = input.light_field;
   for (const std::string& note : light_field.notes) control.message(note);
   if (light_field.kind == LightFieldKind::kUnstructured)
     throw Error(ErrorCode::kInvalidArgument,
-                settings.run.input.input.string() +
+                settings.run.input.path.string() +
                     ": a sparse light field holds 3D and 4D light fields, not photographs from "
                     "anywhere");
   const auto begin = Clock::now();
@@ -124,9 +85,9 @@ void run(const Settings& settings, const RunControl& control) {
     settings.run.budget().require(
         kProgramBytes + coding_bytes(light_field),
         views_text(light_field.num_views(), light_field.width, light_field.height));
-  const DisparityOfView disparity = settings.depth.empty()
-                                        ? computed(settings, light_field, control)
-                                        : read(settings, light_field);
+  const DisparityOfView disparity =
+      settings.depth.empty() ? computed_disparities(input, settings.run.request(), control)
+                             : disparities_of_result(settings.depth, light_field);
   const double depth_seconds = seconds_since(begin);
   const auto encode_begin = Clock::now();
   const SparseFileReport report =

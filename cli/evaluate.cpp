@@ -11,14 +11,11 @@
 
 #include "command.h"
 #include "did_you_mean.h"
-#include "error_map.h"
-#include "evaluate_depth.h"
-#include "evaluate_report.h"
-#include "evaluate_scene.h"
-#include "evaluate_scores.h"
 #include "gigaray/adapters/atomic_output.h"
-#include "gigaray/adapters/maps.h"
 #include "gigaray/adapters/pictures.h"
+#include "gigaray/workflows/error_map.h"
+#include "gigaray/workflows/evaluate.h"
+#include "gigaray/workflows/score_report.h"
 #include "memory_option.h"
 
 namespace gigaray::cli {
@@ -56,24 +53,6 @@ struct EvaluateOptions {
     return {std::move(inputs), replace};
   }
 };
-
-/// The last part of every path without a map's extension, or the whole paths where that would not
-/// tell them apart.
-std::vector<std::string> labels_of(const std::vector<fs::path>& paths) {
-  std::vector<std::string> labels;
-  for (const fs::path& path : paths) {
-    fs::path name = (path.has_filename() ? path : path.parent_path()).filename();
-    for (const char* extension : {".pfm", ".npy", ".exr"})
-      if (name.extension() == extension) name = name.stem();
-    labels.push_back(name.string());
-  }
-  std::vector<std::string> sorted = labels;
-  std::sort(sorted.begin(), sorted.end());
-  if (std::adjacent_find(sorted.begin(), sorted.end()) == sorted.end()) return labels;
-  std::transform(paths.begin(), paths.end(), labels.begin(),
-                 [](const fs::path& path) { return path.string(); });
-  return labels;
-}
 
 /// FILE.png, or FILE-ESTIMATE-VIEW.png where there are several.
 fs::path error_map_path(const fs::path& path, const std::string& estimate,
@@ -113,62 +92,31 @@ void check(const EvaluateOptions& options) {
   if (options.json && options.csv == "-") refuse("--json and --csv - both print; leave one out");
 }
 
-/// A map of floats has 4 bytes per pixel in its file, some 8 maps of the size are made of it.
-void require_memory(const EvaluateOptions& options, const ViewMaps& maps) {
-  double largest = 0;
-  std::vector<fs::path> files = maps.estimates;
-  files.push_back(maps.truth);
-  for (const fs::path& file : files) {
-    std::error_code error;
-    if (const auto bytes = fs::file_size(file, error); !error)
-      largest = std::max(largest, double(bytes));
-  }
-  options.memory.require(kProgramBytes + 8 * largest,
-                         fmt::format("maps of {:.3g} million pixels", largest / 4e6));
-}
-
-ScoreTable score_as_depth(const EvaluateOptions& options, const RunControl& control) {
-  const std::vector<fs::path> estimates(options.maps.begin(), options.maps.end() - 1);
-  DepthChoice choice = options.depth;
-  choice.border = options.choice.border.value_or(0);
-  return score_depth(estimates, labels_of(estimates), options.maps.back(), options.views, choice,
-                     options.memory, control);
+EvaluateRequest request_of(const EvaluateOptions& options) {
+  EvaluateRequest request;
+  request.estimates.assign(options.maps.begin(), options.maps.end() - 1);
+  request.truth = options.maps.back();
+  request.views = options.views;
+  request.choice = options.choice;
+  request.of_depth = options.scores_depth();
+  request.depth = options.depth;
+  request.masks = options.masks;
+  request.memory = options.memory;
+  return request;
 }
 
 /// files: error maps are added.
-std::vector<ScoreRow> score(const EvaluateOptions& options, std::vector<AtomicFile>& files,
-                            const RunControl& control) {
-  const std::vector<fs::path> estimates(options.maps.begin(), options.maps.end() - 1);
-  const fs::path& truth_path = options.maps.back();
-  const std::vector<std::string> labels = labels_of(estimates);
-  const auto views = find_view_maps(estimates, truth_path, options.views, control);
-  const bool is_one_map = views.size() == 1 && estimates.size() == 1;
-  std::vector<ScoreRow> rows;
-  for (const ViewMaps& maps : views) {
-    control.throw_if_cancelled();
-    require_memory(options, maps);
-    const FloatMap truth = read_truth(maps.truth);
-    SceneParts scene;
-    // The masks of a scene are those of its centre view.
-    if (maps.view.empty())
-      scene = read_scene_parts(truth_path, options.masks, truth.width(), truth.height());
-    for (std::size_t i = 0; i < estimates.size(); ++i) {
-      const FloatMap estimate = read_float_map(maps.estimates[i]);
-      try {
-        rows.push_back({labels[i], maps.view, scores_of(estimate, truth, scene, options.choice)});
-      } catch (const Error& error) {
-        throw Error(error.code(), maps.estimates[i].string() + " against " + maps.truth.string() +
-                                      ": " + error.what());
-      }
-      if (options.error_map.empty()) continue;
-      const fs::path path =
-          is_one_map ? options.error_map : error_map_path(options.error_map, labels[i], maps.view);
-      files.emplace_back(path, options.rules(), kPicture);
-      files.back().write(png_bytes(
-          draw_error_map(estimate, truth, options.choice.hci_border(), options.error_range), 8));
-    }
-  }
-  return rows;
+ScoreTable score(const EvaluateOptions& options, std::vector<AtomicFile>& files,
+                 const RunControl& control) {
+  return gigaray::evaluate(request_of(options), control, [&](const ScoredMap& map) {
+    if (options.error_map.empty()) return;
+    const fs::path path = map.is_only_one ? options.error_map
+                                          : error_map_path(options.error_map, map.label, map.view);
+    files.emplace_back(path, options.rules(), kPicture);
+    files.back().write(png_bytes(
+        draw_error_map(map.estimate, map.truth, options.choice.hci_border(), options.error_range),
+        8));
+  });
 }
 
 void evaluate(EvaluateOptions options, const RunControl& control) {
@@ -180,8 +128,7 @@ void evaluate(EvaluateOptions options, const RunControl& control) {
   if (options.writes_csv()) files.emplace_back(options.csv, options.rules(), kTable);
   // The names of several are known once the views are.
   if (!options.error_map.empty()) AtomicFile(options.error_map, options.rules(), kPicture);
-  const ScoreTable table = options.scores_depth() ? score_as_depth(options, control)
-                                                  : ScoreTable{score(options, files, control), {}};
+  const ScoreTable table = score(options, files, control);
   if (options.writes_csv()) files.front().write(scores_as_csv(table));
   for (AtomicFile& file : files) file.commit(control);
   if (options.csv == "-")
@@ -232,7 +179,7 @@ Run evaluate_command(CLI::App& app) {
       ->type_name("PERCENT,...");
   app.add_option("--border", options->choice.border,
                  "Pixels left out on each side [15 for hci, 0 for others]");
-  options->memory.add_to(app, "some 32 bytes per pixel of a map");
+  add_memory_option(app, options->memory, "some 32 bytes per pixel of a map");
   app.add_flag("--json", options->json, "Print JSON");
   app.add_option("--csv", options->csv, "Write a CSV table, a line per map; - prints it")
       ->type_name("FILE|-");

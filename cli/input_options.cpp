@@ -7,8 +7,7 @@
 #include <string>
 
 #include "did_you_mean.h"
-#include "gigaray/adapters/shrunk.h"
-#include "view_list.h"
+#include "rig_options.h"
 
 namespace gigaray::cli {
 namespace {
@@ -67,25 +66,8 @@ void parse_convention(const std::string& text, OpenOptions& open) {
 
 }  // namespace
 
-LightField InputOptions::open_light_field(const std::filesystem::path& place,
-                                          const OpenOptions& options) const {
-  OpenOptions given = options;
-  if (max_size > 0) given.kept.reset();  // the shrunk ones are kept
-  LightField light_field = gigaray::open_light_field(place, given);
-  if (!without.empty())
-    light_field = gigaray::without(light_field, parse_views(without, light_field));
-  rig.apply(light_field);
-  if (max_size == 0) return light_field;
-  light_field = shrunk(std::move(light_field), max_size);
-  std::vector<std::string> keys;
-  for (const View& view : light_field.views)
-    keys.push_back(place.string() + '\n' + view.name + '\n' + std::to_string(max_size));
-  light_field.pixels = KeptPictures::over(options.kept, light_field.pixels, std::move(keys));
-  return light_field;
-}
-
 void InputOptions::add_to(CLI::App& app) {
-  app.add_option("INPUT", input, "Folder or file of the light field")->required();
+  app.add_option("INPUT", path, "Folder or file of the light field")->required();
   app.add_option("--positions", open.positions,
                  "Text file: where each picture was taken, 'right', 'right down' or "
                  "'name right down' per line")
@@ -131,7 +113,7 @@ void InputOptions::add_to(CLI::App& app) {
                  "Shrink pictures that have more pixels than this on a side (default: as they are)")
       ->check(CLI::Range(16, 1 << 20))
       ->type_name("PX");
-  rig.add_to(app);
+  add_rig_options(app, rig);
 }
 
 }  // namespace gigaray::cli

@@ -20,6 +20,7 @@
 #include "command.h"
 #include "console.h"
 #include "did_you_mean.h"
+#include "flag_names.h"
 #include "terminal.h"
 #include "threads_option.h"
 
@@ -87,7 +88,7 @@ int run(const std::string& command, const Run& what) {
   RunControl control;
   const Console console(control);
   const auto fail = [&](const std::string& message, int code) {
-    to_stderr(fmt::format("gigaray {}: {}\n", command, one_line(message)));
+    to_stderr(fmt::format("gigaray {}: {}\n", command, one_line(with_flags(message))));
     return code;
   };
   const auto fail_to_print = [&](int error) {
@@ -100,7 +101,7 @@ int run(const std::string& command, const Run& what) {
     // A full disk or a closed pipe shows when the buffer is written at last.
     if (std::fflush(stdout) != 0 || std::ferror(stdout)) return fail_to_print(errno);
   } catch (const Error& error) {
-    return fail(error.what(), exit_code(error.code()));
+    return fail(with_flags(error.what()), exit_code(error.code()));
   } catch (const std::bad_alloc&) {
     return fail("out of memory; use a smaller input or a smaller --memory", kFailed);
   } catch (const std::exception& error) {

@@ -13,7 +13,7 @@
 
 #include "gigaray/adapters/input_file.h"
 #include "gigaray/adapters/path_text.h"
-#include "gigaray/error.h"
+#include "gigaray/core/error.h"
 
 namespace gigaray::cli {
 namespace {

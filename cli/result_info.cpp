@@ -13,7 +13,7 @@
 #include "gigaray/adapters/input_file.h"
 #include "gigaray/adapters/path_text.h"
 #include "gigaray/adapters/sparse_file.h"
-#include "gigaray/error.h"
+#include "gigaray/core/error.h"
 #include "model_info.h"
 #include "shell_word.h"
 

@@ -3,9 +3,7 @@
 #include <fmt/format.h>
 
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -13,23 +11,13 @@
 #include "did_you_mean.h"
 #include "gigaray/adapters/atomic_output.h"
 #include "gigaray/adapters/depth_result.h"
-#include "gigaray/adapters/maps.h"
-#include "gigaray/adapters/path_text.h"
-#include "gigaray/adapters/pictures.h"
-#include "gigaray/metric_depth.h"
-#include "gigaray/ray_sampler.h"
-#include "gigaray/segmentation.h"
+#include "gigaray/core/metric_depth.h"
+#include "gigaray/workflows/masks.h"
 #include "numbers.h"
 #include "output_option.h"
-#include "pixel_interval.h"
-#include "view_list.h"
 
 namespace gigaray::cli {
 namespace {
-
-using nlohmann::ordered_json;
-
-constexpr const char* kSegmentFormat = "gigaray segment";
 
 struct Settings {
   std::filesystem::path result, input;
@@ -45,96 +33,6 @@ struct Settings {
   std::vector<std::string> formats;
 };
 
-/// What the interval is measured in.
-enum class Unit { kDisparity, kInverseDepth, kDepth };
-
-struct Interval {
-  Unit unit = Unit::kDisparity;
-  ValueInterval values;
-};
-
-const char* name_of(Unit unit) {
-  switch (unit) {
-    case Unit::kDisparity:
-      return "disparity";
-    case Unit::kInverseDepth:
-      return "inverse depth";
-    case Unit::kDepth:
-      return "depth";
-  }
-  return "?";
-}
-
-/// Of the maps.
-Unit unit_of(const LightField& light_field) {
-  return light_field.kind == LightFieldKind::kUnstructured ? Unit::kInverseDepth : Unit::kDisparity;
-}
-
-/// Near is the larger disparity but the smaller depth, so the order of the two tells the unit.
-Interval interval_of(const Settings& settings, const LightField& light_field) {
-  const auto bad = [](const std::string& what) { return Error(ErrorCode::kInvalidArgument, what); };
-  if (settings.near == settings.far) throw bad("--near and --far are the same");
-  const bool rises = settings.near > settings.far;
-  if (settings.unit == "disparity" && !rises)
-    throw bad("--unit disparity: --near must be larger than --far, near things move more");
-  if (settings.unit == "depth" && rises) throw bad("--unit depth: --near must be less than --far");
-  if (rises) return {unit_of(light_field), {float(settings.far), float(settings.near)}};
-  if (!has_metric_depth(light_field))
-    throw bad(fmt::format(
-        "--near {} is less than --far {}: these are distances, but {} has no depth in scene units; "
-        "state disparities (disparity.pfm), of which the near one is larger, or the rig to "
-        "`gigaray "
-        "depth` with --focal-px and --baseline",
-        settings.near, settings.far, settings.result.string()));
-  if (settings.near < 0) throw bad("--near: a distance can't be negative");
-  return {Unit::kDepth, {float(settings.near), float(settings.far)}};
-}
-
-Image<std::uint16_t> as_picture(const Mask& mask) {
-  Image<std::uint16_t> picture(mask.width(), mask.height());
-  std::transform(mask.begin(), mask.end(), picture.begin(),
-                 [](std::uint8_t inside) { return std::uint16_t(inside ? 255 : 0); });
-  return picture;
-}
-
-Image<std::uint16_t> as_picture(const FloatMap& matte) {
-  Image<std::uint16_t> picture(matte.width(), matte.height());
-  std::transform(matte.begin(), matte.end(), picture.begin(),
-                 [](float opacity) { return std::uint16_t(std::lround(opacity * 65535)); });
-  return picture;
-}
-
-/// Colours of a view without what its picture has beyond its own camera.
-Image<std::uint16_t> colours(const LightField& light_field, int view, const Mask& mask) {
-  const Image<std::uint16_t> picture = read_view(light_field, view);
-  Image<std::uint16_t> rgb(mask.width(), mask.height(), 3);
-  for (int v = 0; v < rgb.height(); ++v)
-    for (int u = 0; u < rgb.width(); ++u) std::copy_n(&picture(u, v), 3, &rgb(u, v));
-  return rgb;
-}
-
-/// matte: empty if there is none.
-void write_masks(const std::filesystem::path& place, const Mask& mask, const FloatMap& matte,
-                 bool as_exr) {
-  write_png(place / "mask.png", as_picture(mask), 8);
-  if (!matte.empty()) write_png(place / "matte.png", as_picture(matte), 16);
-  if (!as_exr) return;
-  if (!matte.empty()) return write_exr(place / "matte.exr", matte);
-  FloatMap opacity(mask.width(), mask.height());
-  std::copy(mask.begin(), mask.end(), opacity.begin());
-  write_exr(place / "mask.exr", opacity);
-}
-
-/// Disparities of a view that are sure enough.
-FloatMap disparity_of(const DepthResult& depth, int view, double min_confidence) {
-  FloatMap map = depth.disparity(view);
-  if (min_confidence <= 0) return map;
-  const FloatMap confidence = depth.confidence(view);
-  for (std::size_t k = 0; k < map.size(); ++k)
-    if (!(confidence.data()[k] >= min_confidence)) map.data()[k] = kNoEstimate;
-  return map;
-}
-
 /// The interval in scene units, for people; empty where these are not known.
 std::string depth_text(const ValueInterval& values, const LightField& geometry) {
   if (!has_metric_depth(geometry)) return {};
@@ -146,14 +44,25 @@ std::string depth_text(const ValueInterval& values, const LightField& geometry) 
                      unit.empty() ? "" : " " + unit);
 }
 
-void print_choice(const PixelInterval& pixel, const Interval& interval, const Settings& settings,
-                  const DepthResult& depth) {
-  const LightField& geometry = depth.light_field();
+void print_choice(const SceneMasks& masks, const LightField& geometry) {
+  const PixelInterval& pixel = *masks.pixel();
+  const ValueInterval values = masks.values();
   const bool posed = geometry.kind == LightFieldKind::kUnstructured;
   fmt::print("around {:.4g} at {} {} of {}{}; {}: --near {} --far {}\n", pixel.value(),
-             settings.at[0], settings.at[1], geometry.views[depth.top_view()].name,
-             depth_text(interval.values, geometry), posed ? "there the same" : "the same",
-             interval.values.most, interval.values.least);
+             pixel.at().u, pixel.at().v, geometry.views[pixel.view()].name,
+             depth_text(values, geometry), posed ? "there the same" : "the same", values.most,
+             values.least);
+}
+
+MaskRequest request_of(const Settings& settings) {
+  MaskRequest request;
+  if (settings.is_interval) request.between = MaskRequest::NearFar{settings.near, settings.far};
+  if (!settings.at.empty()) request.at = PixelPlace{settings.at[0], settings.at[1]};
+  request.tolerance = settings.tolerance;
+  request.unit = settings.unit;
+  request.soft = settings.soft;
+  request.matte = settings.matte;
+  return request;
 }
 
 void run(const Settings& settings, const RunControl& control) {
@@ -162,60 +71,18 @@ void run(const Settings& settings, const RunControl& control) {
                 "say what belongs to the mask: --at U V, a pixel of it, or --near A --far B");
   AtomicFolder folder(settings.output.path, kSegmentFormat,
                       settings.output.rules({settings.result, settings.input}));
-  const DepthResult depth(settings.result);
-  const LightField& geometry = depth.light_field();
-  std::optional<PixelInterval> pixel;
-  if (!settings.at.empty())
-    pixel.emplace(depth, disparity_of(depth, depth.top_view(), settings.min_confidence),
-                  settings.at, settings.tolerance);
-  const Interval interval =
-      pixel ? Interval{unit_of(geometry), pixel->values()} : interval_of(settings, geometry);
-  std::vector<int> views = parse_views(settings.views, geometry);
-  if (views.empty()) views = all_views(geometry.num_views());
-  const int centre = centre_view(geometry);
-  const bool as_exr =
-      std::set<std::string>(settings.formats.begin(), settings.formats.end()).contains("exr");
-  LightField light_field;
-  if (settings.soft) light_field = depth.with_pictures(settings.input);
-
-  ordered_json list = ordered_json::array();
-  Mask mask;
-  for (std::size_t i = 0; i < views.size(); ++i) {
-    control.progress("segment", double(i), double(views.size()));
-    const std::string& name = geometry.views[views[i]].name;
-    FloatMap map = disparity_of(depth, views[i], settings.min_confidence);
-    if (interval.unit == Unit::kDepth) map = depth_from_disparity(map, geometry);
-    segment(map, pixel ? pixel->values_in(views[i]) : interval.values, mask);
-
-    FloatMap matte;
-    if (settings.soft)
-      matte = soft_matte(mask, colours(light_field, views[i], mask),
-                         light_field.pixels->bit_depth(), settings.matte);
-    const std::filesystem::path place = folder.path() / name;
-    std::error_code error;
-    std::filesystem::create_directories(place, error);
-    if (error) throw Error(ErrorCode::kIo, place.string() + ": " + error.message());
-    write_masks(place, mask, matte, as_exr);
-    if (views[i] == centre) write_masks(folder.path(), mask, matte, as_exr);
-    const auto inside = std::count(mask.begin(), mask.end(), 1);
-    list.push_back({{"name", name}, {"share", double(inside) / double(mask.size())}});
-  }
-  ordered_json root{{"format", kSegmentFormat},
-                    {"version", 1},
-                    {"depth", path_text(std::filesystem::absolute(settings.result))},
-                    {"unit", name_of(interval.unit)},
-                    {"least", interval.values.least},
-                    {"most", interval.values.most},
-                    {"min_confidence", settings.min_confidence},
-                    {"views", list}};
-  if (pixel) root["at"] = pixel->json();
-  write_file_atomically(folder.path() / "gigaray.json",
-                        root.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n");
+  if (!std::filesystem::exists(settings.result)) DepthResult{settings.result};  // refuses it
+  const DepthScene scene({settings.result, settings.input, settings.min_confidence, settings.soft});
+  const LightField& geometry = scene.light_field();
+  const SceneMasks masks(scene, request_of(settings));
+  // exr is the only format there is.
+  const int num_views =
+      write_masks(masks, settings.views, !settings.formats.empty(), folder.path(), control);
   folder.commit(control);
   control.progress("segment", 1, 1);
   fmt::print("{}: {} {:g} … {:g} in {} views\n", settings.output.path.string(),
-             name_of(interval.unit), interval.values.least, interval.values.most, views.size());
-  if (pixel) print_choice(*pixel, interval, settings, depth);
+             to_string(masks.unit()), masks.values().least, masks.values().most, num_views);
+  if (masks.pixel()) print_choice(masks, geometry);
 }
 
 void add_interval(CLI::App& app, const std::shared_ptr<Settings>& settings) {

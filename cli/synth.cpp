@@ -20,9 +20,9 @@
 #include "gigaray/adapters/light_field_json.h"
 #include "gigaray/adapters/maps.h"
 #include "gigaray/adapters/pictures.h"
-#include "gigaray/synthetic.h"
+#include "gigaray/core/synthetic.h"
+#include "gigaray/workflows/synth.h"
 #include "output_option.h"
-#include "synthetic_photographs.h"
 
 namespace gigaray::cli {
 namespace {
@@ -51,47 +51,24 @@ std::pair<int, int> parse_grid(const std::string& text) {
   return {across, down};
 }
 
-/// Adds how the scene was made to the description; readers of the light field skip it.
-void add_origin(const fs::path& description, const SyntheticOptions& scene) {
-  ordered_json root;
-  std::ifstream(description) >> root;
-  root["synthetic"] = {{"scene", scene.scene},         {"seed", scene.seed},
-                       {"noise", scene.noise},         {"outliers", scene.outliers},
-                       {"bit_depth", scene.bit_depth}, {"samples", scene.samples},
-                       {"truth", "truth.pfm"}};
-  write_file_atomically(description, root.dump(2) + "\n");
-}
-
 void synthesise(SynthOptions options, const RunControl& control) {
   SyntheticOptions& scene = options.scene;
   scene.views_s = options.views;
   if (options.shape) {
     options.path.shape = *options.shape;
-    write_synthetic_photographs(options.out, scene, options.path, control);
+    const int photographs = write_synthetic_photographs(options.out.path, scene, options.path,
+                                                        options.out.rules({}), control);
+    fmt::print("{}: {} photographs of {} × {} px; their cameras in {}, exact depth in {}\n",
+               options.out.path.string(), photographs, scene.width, scene.height,
+               (options.out.path / "sparse" / "0").string(), (options.out.path / "truth").string());
     return;
   }
   if (!options.grid.empty()) std::tie(scene.views_s, scene.views_t) = parse_grid(options.grid);
   scene.disparity = {options.disparity.first, options.disparity.second};
-  const LightField light_field = describe_synthetic(scene);
-
-  AtomicFolder out(options.out.path, kLightFieldFormat, options.out.rules({}));
-  const fs::path truth = out.path() / "truth";
-  fs::create_directory(truth);
-  const int centre = centre_view(light_field);
-  std::vector<std::string> files;
-  for (const View& view : light_field.views) files.push_back(view.name + ".png");
-  render_synthetic_views(
-      scene, control, [&](int view_idx, Image<std::uint16_t> picture, FloatMap disparity) {
-        write_png(out.path() / files[view_idx], picture, scene.bit_depth);
-        write_pfm(truth / (light_field.views[view_idx].name + ".pfm"), disparity);
-        if (view_idx == centre) write_pfm(out.path() / "truth.pfm", disparity);
-      });
-  const fs::path description = out.path() / "gigaray.json";
-  write_light_field_json(description, light_field, files);
-  add_origin(description, scene);
-  out.commit(control);
+  const LightField light_field =
+      write_synthetic_light_field(options.out.path, scene, options.out.rules({}), control);
   fmt::print("{}: {} views of {} × {} px, disparity {:g} … {:g}; exact disparity in {}\n",
-             options.out.path.string(), files.size(), scene.width, scene.height,
+             options.out.path.string(), light_field.num_views(), scene.width, scene.height,
              scene.disparity.min, scene.disparity.max, (options.out.path / "truth").string());
 }
 

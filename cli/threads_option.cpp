@@ -6,7 +6,7 @@
 #include <string>
 #include <thread>
 
-#include "gigaray/parallel.h"
+#include "gigaray/core/parallel.h"
 
 namespace gigaray::cli {
 namespace {

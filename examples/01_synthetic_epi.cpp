@@ -5,9 +5,9 @@
 //   01_synthetic_epi
 #include <cstdio>
 
-#include "gigaray/metrics.h"
-#include "gigaray/reconstruct.h"
-#include "gigaray/synthetic.h"
+#include "gigaray/core/metrics.h"
+#include "gigaray/core/synthetic.h"
+#include "gigaray/engine/reconstruct.h"
 
 int main() {
   try {

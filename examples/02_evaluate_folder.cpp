@@ -9,9 +9,9 @@
 
 #include "gigaray/adapters/maps.h"
 #include "gigaray/adapters/reader.h"
-#include "gigaray/camera_order.h"
-#include "gigaray/metrics.h"
-#include "gigaray/reconstruct.h"
+#include "gigaray/core/metrics.h"
+#include "gigaray/engine/camera_order.h"
+#include "gigaray/engine/reconstruct.h"
 
 int main(int argc, char** argv) {
   if (argc != 3) {

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "gigaray/core/synthetic.h"
 #include "gigaray/samplers/grid_sampler.h"
-#include "gigaray/synthetic.h"
 
 namespace {
 

@@ -8,8 +8,8 @@
 #include <cstring>
 #include <vector>
 
-#include "gigaray/error.h"
-#include "gigaray/segmentation.h"
+#include "gigaray/applications/segmentation.h"
+#include "gigaray/core/error.h"
 
 namespace gigaray::benchmarks {
 namespace {

@@ -5,9 +5,9 @@
 #include <memory>
 #include <optional>
 
-#include "gigaray/metrics.h"
-#include "gigaray/reconstruct.h"
-#include "gigaray/synthetic.h"
+#include "gigaray/core/metrics.h"
+#include "gigaray/core/synthetic.h"
+#include "gigaray/engine/reconstruct.h"
 #include "support/program.h"
 
 namespace gigaray::benchmarks {

@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "gigaray/light_field.h"
-#include "gigaray/reconstruct.h"
-#include "gigaray/synthetic.h"
+#include "gigaray/core/light_field.h"
+#include "gigaray/core/synthetic.h"
+#include "gigaray/engine/reconstruct.h"
 
 // The experiments of section 5 of Kim et al. 2013 and ablations, each a table and pictures.
 namespace gigaray::experiments {

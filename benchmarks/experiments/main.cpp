@@ -7,7 +7,7 @@
 
 #include "experiments/experiments.h"
 #include "gigaray/adapters/atomic_output.h"
-#include "gigaray/parallel.h"
+#include "gigaray/core/parallel.h"
 
 namespace gigaray::experiments {
 namespace {

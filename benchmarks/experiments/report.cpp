@@ -8,8 +8,8 @@
 #include "gigaray/adapters/maps.h"
 #include "gigaray/adapters/pictures.h"
 #include "gigaray/adapters/reader.h"
-#include "gigaray/metrics.h"
-#include "gigaray/region_metrics.h"
+#include "gigaray/core/metrics.h"
+#include "gigaray/core/region_metrics.h"
 
 namespace gigaray::experiments {
 namespace {

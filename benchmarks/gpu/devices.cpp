@@ -3,7 +3,7 @@
 // One line per OpenCL device; exit status 1 without any.
 #include <cstdio>
 
-#include "gigaray/device.h"
+#include "gigaray/engine/device.h"
 
 int main() {
   try {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "gigaray/device.h"
+#include "gigaray/engine/device.h"
 
 namespace gigaray::benchmarks {
 

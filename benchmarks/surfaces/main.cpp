@@ -20,7 +20,7 @@
 namespace gigaray::benchmarks {
 namespace {
 
-using namespace testing_support;
+using namespace solids;
 
 constexpr double kCameraDistance = 3.2;
 constexpr int kSize = 160;  // px

@@ -5,13 +5,13 @@
 #include <array>
 #include <memory>
 
-#include "gigaray/parallel.h"
-#include "gigaray/reconstruct.h"
+#include "gigaray/core/parallel.h"
+#include "gigaray/engine/reconstruct.h"
 
 namespace gigaray::benchmarks {
 namespace {
 
-using testing_support::Solid;
+using solids::Solid;
 
 constexpr double kRoom = 8;       // radius; the cameras are 3.2 from the middle
 constexpr double kCropped = 2.5;  // from the middle: beyond is the room
@@ -111,11 +111,9 @@ DepthViews computed_views(const Solid& solid, std::vector<Camera> cameras) {
   Reconstruction result = reconstruct(light_field, auto_options(), {}, {});
   auto kept = std::make_shared<std::vector<DepthView>>();
   for (int i = 0; i < int(cameras.size()); ++i) {
-    const Image<std::uint16_t> picture = read_view(light_field, i);
     ViewDepth depth = result.view(i);
-    DepthView view{cameras[i], std::move(depth.disparity), std::move(depth.confidence),
-                   Image<std::uint8_t>(picture.width(), picture.height(), 3)};
-    std::ranges::copy(picture, view.picture.begin());
+    DepthView view{cameras[i], read_view(light_field, i), std::move(depth.disparity),
+                   std::move(depth.confidence)};
     // Beside silhouettes pixels show both, and depth may be either's.
     for (int v = 0; v < view.inverse_depth.height(); ++v)
       for (int u = 0; u < view.inverse_depth.width(); ++u) {

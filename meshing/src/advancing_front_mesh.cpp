@@ -9,7 +9,7 @@
 
 #include "cgal_mesh.h"
 #include "cloud_mesh.h"
-#include "gigaray/error.h"
+#include "gigaray/core/error.h"
 #include "gigaray/meshing/cloud_mesh.h"
 
 namespace gigaray {

@@ -9,8 +9,8 @@
 #include <optional>
 #include <string>
 
-#include "gigaray/error.h"
-#include "gigaray/parallel.h"
+#include "gigaray/core/error.h"
+#include "gigaray/core/parallel.h"
 
 namespace gigaray {
 namespace {
@@ -181,19 +181,19 @@ void add_crops(const std::vector<Camera>& cameras, const std::vector<int>& view_
 }
 
 /// The mean of the picture over [u, u + 1 / scale) × [v, v + 1 / scale) of its pixels.
-Eigen::Array3f mean_of(const Image<std::uint8_t>& picture, const ValueTable& table, double u,
-                       double v, double step) {
+Eigen::Array3f mean_of(const DepthView& view, const ValueTable& table, double u, double v,
+                       double step) {
   Eigen::Array3f sum = Eigen::Array3f::Zero();
   float weights = 0;
-  const double right = std::min(u + step, double(picture.width())),
-               bottom = std::min(v + step, double(picture.height()));
-  for (int y = std::min(int(v), picture.height() - 1); y < bottom; ++y)
-    for (int x = std::min(int(u), picture.width() - 1); x < right; ++x) {
+  const double right = std::min(u + step, double(view.picture.width())),
+               bottom = std::min(v + step, double(view.picture.height()));
+  for (int y = std::min(int(v), view.picture.height() - 1); y < bottom; ++y)
+    for (int x = std::min(int(u), view.picture.width() - 1); x < right; ++x) {
       const double w = std::min(x + 1.0, right) - std::max<double>(x, u);
       const double h = std::min(y + 1.0, bottom) - std::max<double>(y, v);
       const float weight = float(std::max(w * h, 1e-6));
-      const std::uint8_t* pixel = &picture(x, y);
-      sum += weight * Eigen::Array3f(table[0][pixel[0]], table[1][pixel[1]], table[2][pixel[2]]);
+      sum += weight * Eigen::Array3f(table[0][view.byte(x, y, 0)], table[1][view.byte(x, y, 1)],
+                                     table[2][view.byte(x, y, 2)]);
       weights += weight;
     }
   return weights > 0 ? Eigen::Array3f(sum / weights) : sum;
@@ -218,15 +218,15 @@ Atlas plan_atlas(const SurfaceMesh& mesh, const std::vector<Camera>& cameras,
   return atlas;
 }
 
-void draw_crop(const Atlas& atlas, const Crop& crop, const Image<std::uint8_t>& picture,
-               const ValueTable& table, Image<std::uint8_t>& into) {
+void draw_crop(const Atlas& atlas, const Crop& crop, const DepthView& view, const ValueTable& table,
+               Image<std::uint8_t>& into) {
   const double step = 1 / atlas.scale;
   parallel_for(
       crop.to.height(),
       [&](int row) {
         for (int column = 0; column < crop.to.width(); ++column) {
-          const Eigen::Array3f mean = mean_of(picture, table, crop.from.u0 + column * step,
-                                              crop.from.v0 + row * step, step);
+          const Eigen::Array3f mean =
+              mean_of(view, table, crop.from.u0 + column * step, crop.from.v0 + row * step, step);
           for (int k = 0; k < 3; ++k)
             into(crop.to.u0 + column, crop.to.v0 + row, k) = std::uint8_t(mean[k] + 0.5f);
         }

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "gigaray/surface_mesh.h"
-#include "gigaray/surface_texture.h"
+#include "gigaray/core/surface_mesh.h"
+#include "gigaray/core/surface_texture.h"
 #include "view_gains.h"
 
 namespace gigaray {
@@ -46,8 +46,8 @@ Atlas plan_atlas(const SurfaceMesh& mesh, const std::vector<Camera>& cameras,
                  const std::vector<std::array<Eigen::Vector2f, 3>>& in_picture, int most_px);
 
 /// Draws a crop of the view's picture into the atlas; what is scaled down is averaged.
-void draw_crop(const Atlas& atlas, const Crop& crop, const Image<std::uint8_t>& picture,
-               const ValueTable& table, Image<std::uint8_t>& into);
+void draw_crop(const Atlas& atlas, const Crop& crop, const DepthView& view, const ValueTable& table,
+               Image<std::uint8_t>& into);
 void draw_patches(const Atlas& atlas, Image<std::uint8_t>& into);
 
 /// The places of the faces' corners in the atlas, as SurfaceTexture::corners.

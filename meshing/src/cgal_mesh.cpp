@@ -7,7 +7,8 @@
 
 #include <Eigen/Geometry>
 
-#include "gigaray/error.h"
+#include "gigaray/core/arguments.h"
+#include "gigaray/core/error.h"
 
 namespace gigaray {
 namespace {
@@ -37,6 +38,8 @@ CgalMesh cgal_mesh_of(const SurfaceMesh& mesh) {
     if (!(ab.cross(ac).squaredNorm() > 0)) continue;
     std::array<std::size_t, 3> polygon;
     for (int k = 0; k < 3; ++k) {
+      require_argument(face[k] < mesh.positions.size(),
+                       "mesh.faces: name a vertex that is not there");
       std::size_t& index = place[face[k]];
       if (index == std::size_t(-1)) {
         index = points.size();

@@ -5,7 +5,7 @@
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Surface_mesh.h>
 
-#include "gigaray/surface_mesh.h"
+#include "gigaray/core/surface_mesh.h"
 
 namespace gigaray {
 

@@ -8,7 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "gigaray/error.h"
+#include "gigaray/core/arguments.h"
+#include "gigaray/core/error.h"
 #include "plain_ground.h"
 #include "thin_cloud.h"
 #include "tile_store.h"
@@ -133,6 +134,7 @@ CloudReport build_cloud(const DepthViews& all, const CloudOptions& options,
                         const std::function<void(const PointCloud&)>& take,
                         const RunControl& control) {
   check(options);
+  require_argument(bool(take), "take: is empty");
   const DepthViews in_scene = without_plain_ground(all, options.points.keeps_plain_ground, control);
   const Survey seen = survey(in_scene, control);
   const auto tolerance = SurfaceTolerance::of(seen.range);

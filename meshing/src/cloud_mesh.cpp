@@ -8,7 +8,8 @@
 #include <numeric>
 #include <string>
 
-#include "gigaray/error.h"
+#include "gigaray/core/arguments.h"
+#include "gigaray/core/error.h"
 
 namespace gigaray {
 namespace {
@@ -36,6 +37,8 @@ void check_cloud(const PointCloud& cloud) {
     throw Error(ErrorCode::kBadInput, "a surface needs " + std::to_string(kLeast) +
                                           " points or more, there are " +
                                           std::to_string(cloud.size()));
+  require_argument(cloud.normals.size() == cloud.size() && cloud.colours.size() == cloud.size(),
+                   "cloud: each point needs a normal and a colour");
   Eigen::AlignedBox3f box;
   for (const Eigen::Vector3f& position : cloud.positions) {
     if (!position.allFinite()) throw Error(ErrorCode::kBadInput, "a point is not finite");

@@ -4,8 +4,8 @@
 
 #include <functional>
 
-#include "gigaray/point_cloud.h"
-#include "gigaray/surface_mesh.h"
+#include "gigaray/core/point_cloud.h"
+#include "gigaray/core/surface_mesh.h"
 #include "neighbours.h"
 
 namespace gigaray {

@@ -5,7 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "gigaray/error.h"
+#include "gigaray/core/arguments.h"
+#include "gigaray/core/error.h"
 
 namespace gigaray {
 namespace {
@@ -57,6 +58,8 @@ float SurfaceTolerance::at(float inverse_depth, float finest) const {
 }
 
 Survey survey(const DepthViews& views, const RunControl& control) {
+  require_argument(bool(views.read) && !views.cameras.empty(),
+                   "views: cameras and a way to read them are needed");
   std::vector<float> seen, spacings;
   for (int view = 0; view < views.size(); ++view) {
     control.progress("survey", view, views.size());

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "gigaray/error.h"
-#include "gigaray/parallel.h"
+#include "gigaray/core/error.h"
+#include "gigaray/core/parallel.h"
 #include "plain_ground.h"
 #include "witness.h"
 
@@ -119,8 +119,8 @@ class Builder {
       const double z = 1 / double(view_.inverse_depth(p.u, p.v));
       mesh_.positions.push_back(view_.camera.back_project(p.u, p.v, z).cast<float>());
       mesh_.normals.emplace_back(&normals_(p.u, p.v, 0));
-      const std::uint8_t* colour = &view_.picture(p.u, p.v, 0);
-      mesh_.colours.push_back({colour[0], colour[1], colour[2]});
+      mesh_.colours.push_back(
+          {view_.byte(p.u, p.v, 0), view_.byte(p.u, p.v, 1), view_.byte(p.u, p.v, 2)});
     }
     return index;
   }
@@ -137,6 +137,7 @@ class Builder {
 }  // namespace
 
 std::vector<int> farthest_first(const std::vector<Camera>& cameras) {
+  if (cameras.empty()) return {};
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();
   for (const Camera& camera : cameras) middle += camera.position() / double(cameras.size());
   std::vector<double> distance;
@@ -177,7 +178,7 @@ SurfaceMesh grid_mesh(const DepthViews& all, const PointOptions& options, PointC
     const Mask covered = covered_by(parts, own, kept.keep, tolerance);
     if (mesh.positions.size() + kept.keep.size() >= kNoVertex)
       throw Error(ErrorCode::kInvalidArgument,
-                  "a surface has less than 2^32 vertices; take fewer views with --views");
+                  "a surface has less than 2^32 vertices; take fewer views");
     parts.push_back({own.camera, Builder(own, kept, covered, tolerance, mesh).add()});
   }
   if (mesh.faces.empty())

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "gigaray/parallel.h"
+#include "gigaray/core/parallel.h"
 
 namespace gigaray {
 namespace {
@@ -123,8 +123,8 @@ MeshSight::Sample MeshSight::sample(const Eigen::Vector3f& place, float toleranc
   const float own = view_.inverse_depth(u, v);
   result.is_unknown = !(own > 0);
   // Masked pixels, as beside what a lens without its distortion shows, are black and tell nothing.
-  const std::uint8_t* colour = &view_.picture(u, v, 0);
-  if (std::isnan(own) && (colour[0] | colour[1] | colour[2]) == 0) return {};
+  const int light = view_.byte(u, v, 0) | view_.byte(u, v, 1) | view_.byte(u, v, 2);
+  if (std::isnan(own) && light == 0) return {};
   result.is_contradicted = std::abs(own - place.z()) > 2 * tolerance;
   return result;
 }

@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "gigaray/core/surface_mesh.h"
 #include "gigaray/meshing/depth_view.h"
-#include "gigaray/surface_mesh.h"
 
 namespace gigaray {
 

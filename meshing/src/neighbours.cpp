@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "gigaray/parallel.h"
+#include "gigaray/core/parallel.h"
 
 namespace gigaray {
 

@@ -11,7 +11,6 @@
 namespace gigaray {
 namespace {
 
-using Picture = Image<std::uint8_t>;
 struct Pixel {
   int u, v;
 };
@@ -21,10 +20,9 @@ constexpr int kLevels = 6;
 /// Of the border, so that an object may reach out of the picture.
 constexpr double kLeastShare = 0.5;
 
-bool is_ground(const Picture& picture, int u, int v, const Rgb8& colour) {
-  const std::uint8_t* own = &picture(u, v, 0);
+bool is_ground(const DepthView& view, int u, int v, const Rgb8& colour) {
   for (int c = 0; c < 3; ++c)
-    if (std::abs(int(own[c]) - int(colour[c])) > kLevels) return false;
+    if (std::abs(int(view.byte(u, v, c)) - int(colour[c])) > kLevels) return false;
   return true;
 }
 
@@ -34,7 +32,7 @@ bool is_clipped(const Rgb8& colour) {
   return least >= 255 - kLevels || most <= kLevels;
 }
 
-std::vector<Pixel> border_of(const Picture& picture) {
+std::vector<Pixel> border_of(const Image<std::uint16_t>& picture) {
   const int right = picture.width() - 1, bottom = picture.height() - 1;
   std::vector<Pixel> border;
   for (int u = 0; u <= right; ++u) border.insert(border.end(), {{u, 0}, {u, bottom}});
@@ -42,11 +40,11 @@ std::vector<Pixel> border_of(const Picture& picture) {
   return border;
 }
 
-Rgb8 median_of(const Picture& picture, const std::vector<Pixel>& pixels) {
+Rgb8 median_of(const DepthView& view, const std::vector<Pixel>& pixels) {
   Rgb8 median;
   for (int c = 0; c < 3; ++c) {
     std::vector<std::uint8_t> levels;
-    for (const Pixel p : pixels) levels.push_back(picture(p.u, p.v, c));
+    for (const Pixel p : pixels) levels.push_back(view.byte(p.u, p.v, c));
     const auto middle = levels.begin() + std::ptrdiff_t(levels.size() / 2);
     std::nth_element(levels.begin(), middle, levels.end());
     median[std::size_t(c)] = *middle;
@@ -59,7 +57,7 @@ void clear_ground(DepthView& view, const Rgb8& colour) {
   FloatMap& map = view.inverse_depth;
   Mask left(map.width(), map.height());  // of the colour, and not reached from the border
   for (int v = 0; v < map.height(); ++v)
-    for (int u = 0; u < map.width(); ++u) left(u, v) = is_ground(view.picture, u, v, colour);
+    for (int u = 0; u < map.width(); ++u) left(u, v) = is_ground(view, u, v, colour);
   std::vector<Pixel> reached;
   const auto reach = [&](int u, int v) {
     if (u < 0 || v < 0 || u >= map.width() || v >= map.height() || !left(u, v)) return;
@@ -86,15 +84,14 @@ std::optional<Rgb8> plain_ground(const DepthViews& views, const RunControl& cont
   for (int view = 0; view < views.size(); ++view) {
     control.throw_if_cancelled();
     const DepthView own = views.read(view);
-    const Picture& picture = own.picture;
-    std::vector<Pixel> border = border_of(picture);
+    std::vector<Pixel> border = border_of(own.picture);
     // Masked: beside what a lens without its distortion shows, for one.
     std::erase_if(border, [&](Pixel p) { return std::isnan(own.inverse_depth(p.u, p.v)); });
     if (border.empty()) return {};
-    if (view == 0) colour = median_of(picture, border);
+    if (view == 0) colour = median_of(own, border);
     if (!is_clipped(colour)) return {};
-    const auto plain = std::ranges::count_if(
-        border, [&](Pixel p) { return is_ground(picture, p.u, p.v, colour); });
+    const auto plain =
+        std::ranges::count_if(border, [&](Pixel p) { return is_ground(own, p.u, p.v, colour); });
     if (double(plain) < kLeastShare * double(border.size())) return {};
   }
   return colour;

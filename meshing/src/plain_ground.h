@@ -4,8 +4,8 @@
 
 #include <optional>
 
+#include "gigaray/core/point_cloud.h"
 #include "gigaray/meshing/depth_view.h"
-#include "gigaray/point_cloud.h"
 
 namespace gigaray {
 

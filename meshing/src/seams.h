@@ -4,9 +4,9 @@
 
 #include <vector>
 
-#include "gigaray/run_control.h"
-#include "gigaray/surface_mesh.h"
-#include "gigaray/surface_texture.h"
+#include "gigaray/core/run_control.h"
+#include "gigaray/core/surface_mesh.h"
+#include "gigaray/core/surface_texture.h"
 
 namespace gigaray {
 

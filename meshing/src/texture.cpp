@@ -8,7 +8,8 @@
 #include <string>
 
 #include "atlas.h"
-#include "gigaray/error.h"
+#include "gigaray/core/arguments.h"
+#include "gigaray/core/error.h"
 #include "mesh_sight.h"
 #include "seams.h"
 #include "view_choice.h"
@@ -28,7 +29,12 @@ void check(const SurfaceMesh& mesh, const TextureOptions& options) {
                 "most_px is " + std::to_string(options.most_px) + ", not within 64 … 32768");
   if (mesh.faces.empty())
     throw Error(ErrorCode::kInvalidArgument, "a surface without triangles has no texture");
-  GIGARAY_CHECK(mesh.colours.size() == mesh.positions.size());
+  require_argument(mesh.colours.size() == mesh.positions.size(),
+                   "mesh.colours: one for each position is needed");
+  for (const auto& face : mesh.faces)
+    for (const std::uint32_t corner : face)
+      require_argument(corner < mesh.positions.size(),
+                       "mesh.faces: name a vertex that is not there");
 }
 
 /// Where the corners of the faces are in their views' pictures, px.
@@ -79,7 +85,7 @@ SurfaceTexture texture_of(const SurfaceMesh& mesh, const DepthViews& views,
     const DepthView own = views.read(view);
     const MeshSight sight(mesh, own, tolerance);
     qualities.set(view, sight.qualities());
-    if (options.levels_seams) view_gains.look(view, sight, own.picture);
+    if (options.levels_seams) view_gains.look(view, sight, own);
   }
   control.progress("look", 1, 1);
 
@@ -104,7 +110,7 @@ SurfaceTexture texture_of(const SurfaceMesh& mesh, const DepthViews& views,
     const DepthView own = views.read(view);
     const ValueTable table = table_of(gains[std::size_t(view)]);
     for (const Crop& crop : atlas.crops)
-      if (crop.view == view) draw_crop(atlas, crop, own.picture, table, texture.picture);
+      if (crop.view == view) draw_crop(atlas, crop, own, table, texture.picture);
   }
   if (options.levels_seams) level_seams(mesh, chosen, texture, control);
   control.progress("texture", 1, 1);

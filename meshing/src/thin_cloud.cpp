@@ -11,7 +11,7 @@
 #include <array>
 #include <cstring>
 
-#include "gigaray/error.h"
+#include "gigaray/core/error.h"
 
 namespace gigaray {
 namespace {

@@ -2,7 +2,7 @@
 // Copyright (c) 2026 The Gigaray authors
 #pragma once
 
-#include "gigaray/point_cloud.h"
+#include "gigaray/core/point_cloud.h"
 
 namespace gigaray {
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "gigaray/error.h"
+#include "gigaray/core/error.h"
 
 namespace gigaray {
 

@@ -9,8 +9,8 @@
 #include <span>
 #include <vector>
 
-#include "gigaray/point_cloud.h"
-#include "gigaray/scratch_file.h"
+#include "gigaray/core/point_cloud.h"
+#include "gigaray/core/scratch_file.h"
 
 namespace gigaray {
 

@@ -9,7 +9,7 @@
 #include <queue>
 #include <tuple>
 
-#include "gigaray/error.h"
+#include "gigaray/core/error.h"
 
 namespace gigaray {
 namespace {

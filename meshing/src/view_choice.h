@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "gigaray/surface_mesh.h"
+#include "gigaray/core/surface_mesh.h"
 
 namespace gigaray {
 

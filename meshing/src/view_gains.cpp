@@ -7,7 +7,7 @@
 #include <cmath>
 #include <optional>
 
-#include "gigaray/srgb.h"
+#include "gigaray/core/srgb.h"
 
 namespace gigaray {
 namespace {
@@ -23,10 +23,9 @@ constexpr double kPrior = 0.05;
 
 /// Mean of the linear light around a place, weights falling to 0 at 2 px; nothing near the rims and
 /// where it is too dark or bright.
-std::optional<std::array<float, 3>> log_light_at(const Image<std::uint8_t>& picture, float u,
-                                                 float v) {
+std::optional<std::array<float, 3>> log_light_at(const DepthView& view, float u, float v) {
   const int u0 = int(std::floor(u)) - 1, v0 = int(std::floor(v)) - 1;
-  if (u0 < 0 || v0 < 0 || u0 + 3 >= picture.width() || v0 + 3 >= picture.height())
+  if (u0 < 0 || v0 < 0 || u0 + 3 >= view.picture.width() || v0 + 3 >= view.picture.height())
     return std::nullopt;
   std::array<double, 3> sum{};
   double weights = 0;
@@ -34,7 +33,7 @@ std::optional<std::array<float, 3>> log_light_at(const Image<std::uint8_t>& pict
     for (int x = u0; x < u0 + 4; ++x) {
       const double weight = (2 - std::abs(u - float(x))) * (2 - std::abs(v - float(y)));
       for (int k = 0; k < 3; ++k) {
-        const int value = picture(x, y, k);
+        const int value = view.byte(x, y, k);
         if (value < kDarkest || value > kBrightest) return std::nullopt;
         sum[k] += weight * linear_from_srgb(value / 255.0);
       }
@@ -52,12 +51,12 @@ ViewGains::ViewGains(const SurfaceMesh& mesh, int num_views)
       step_(std::max<std::size_t>(1, mesh.positions.size() / kMostPoints)),
       points_(mesh.positions.size() / step_) {}
 
-void ViewGains::look(int view, const MeshSight& sight, const Image<std::uint8_t>& picture) {
+void ViewGains::look(int view, const MeshSight& sight, const DepthView& own) {
   for (std::size_t i = 0; i < points_.size(); ++i) {
     const auto vertex = std::uint32_t(i * step_);
     if (!sight.sees_vertex(vertex)) continue;
     const Eigen::Vector3f& place = sight.places()[vertex];
-    const auto light = log_light_at(picture, place.x(), place.y());
+    const auto light = log_light_at(own, place.x(), place.y());
     if (light) points_[i].push_back({view, *light});
   }
 }

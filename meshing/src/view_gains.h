@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "gigaray/surface_mesh.h"
+#include "gigaray/core/surface_mesh.h"
 #include "mesh_sight.h"
 
 namespace gigaray {
@@ -19,7 +19,7 @@ class ViewGains {
   ViewGains(const SurfaceMesh& mesh, int num_views);
 
   /// Looks at the view's points. Colours near black and white are left out.
-  void look(int view, const MeshSight& sight, const Image<std::uint8_t>& picture);
+  void look(int view, const MeshSight& sight, const DepthView& own);
 
   /// The factor of each view's linear light, per channel, > 0: least squares over the logarithms,
   /// robust. Their mean over the views is 1 where nothing else is known.

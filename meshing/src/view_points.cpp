@@ -8,8 +8,9 @@
 #include <cmath>
 #include <numeric>
 
-#include "gigaray/error.h"
-#include "gigaray/parallel.h"
+#include "gigaray/core/arguments.h"
+#include "gigaray/core/error.h"
+#include "gigaray/core/parallel.h"
 #include "witness.h"
 
 namespace gigaray {
@@ -94,6 +95,20 @@ int usual_support(int should_see) {
   return std::max(kLeast, int(std::ceil(kSupportShare * should_see - 1e-9)));
 }
 
+void check_maps(const DepthView& view) {
+  const FloatMap& map = view.inverse_depth;
+  require_argument(
+      map.width() == view.camera.width && map.height() == view.camera.height && map.channels() == 1,
+      "view.inverse_depth: must be as large as the camera's picture");
+  require_argument(view.confidence.empty() || (view.confidence.width() == map.width() &&
+                                               view.confidence.height() == map.height()),
+                   "view.confidence: must be as large as inverse_depth");
+  require_argument(view.picture.empty() ||
+                       (view.picture.width() == map.width() &&
+                        view.picture.height() == map.height() && view.picture.channels() >= 3),
+                   "view.picture: must be as large as inverse_depth, with three channels");
+}
+
 }  // namespace
 
 PointCounts& PointCounts::operator+=(const PointCounts& other) {
@@ -109,6 +124,9 @@ PointCounts& PointCounts::operator+=(const PointCounts& other) {
 }
 
 std::vector<int> witnesses_of(const std::vector<Camera>& cameras, int view, int most) {
+  require_argument(view >= 0 && std::size_t(view) < cameras.size(),
+                   "view: there is no such camera");
+  require_argument(most >= 0, "most: must be 0 or more");
   std::vector<int> others;
   for (int i = 0; i < int(cameras.size()); ++i)
     if (i != view && cameras[i].direction().dot(cameras[view].direction()) > kSameWay)
@@ -134,6 +152,8 @@ KeptPixels keep_pixels(const DepthView& view, std::span<const DepthView> witness
                 "points need a support of 0 or more and a confidence of 0 … 1, not of " +
                     std::to_string(options.least_support.value_or(0)) + " and " +
                     std::to_string(options.least_confidence));
+  check_maps(view);
+  for (const DepthView& witness : witnesses) check_maps(witness);
   const int width = view.inverse_depth.width(), height = view.inverse_depth.height();
   KeptPixels kept{Mask(width, height), FloatMap(width, height), view.inverse_depth, {}};
   const float finest = finest_difference(view, witnesses);
@@ -194,6 +214,12 @@ FloatMap normals_of(const DepthView& view, SurfaceTolerance tolerance) {
 }
 
 PointCloud points_of(const DepthView& view, const KeptPixels& kept, SurfaceTolerance tolerance) {
+  check_maps(view);
+  require_argument(kept.keep.width() == view.inverse_depth.width() &&
+                       kept.keep.height() == view.inverse_depth.height() &&
+                       kept.support.width() == kept.keep.width() &&
+                       kept.support.height() == kept.keep.height(),
+                   "kept: must be as large as the maps of the view");
   const FloatMap normals = normals_of(view, tolerance);
   PointCloud cloud;
   const auto count = std::size_t(kept.counts.points);
@@ -207,8 +233,7 @@ PointCloud points_of(const DepthView& view, const KeptPixels& kept, SurfaceToler
       if (!kept.keep(u, v)) continue;
       cloud.positions.push_back(point_of(view, u, v).cast<float>());
       cloud.normals.emplace_back(normals(u, v, 0), normals(u, v, 1), normals(u, v, 2));
-      cloud.colours.push_back(
-          {view.picture(u, v, 0), view.picture(u, v, 1), view.picture(u, v, 2)});
+      cloud.colours.push_back({view.byte(u, v, 0), view.byte(u, v, 1), view.byte(u, v, 2)});
       cloud.confidences.push_back(view.confidence.empty() ? 1 : view.confidence(u, v));
       cloud.supports.push_back(kept.support(u, v));
     }

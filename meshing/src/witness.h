@@ -4,8 +4,8 @@
 
 #include <limits>
 
-#include "gigaray/camera.h"
-#include "gigaray/image.h"
+#include "gigaray/core/camera.h"
+#include "gigaray/core/image.h"
 
 namespace gigaray {
 

@@ -3,9 +3,17 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gigaray/core/arguments.h"
 #include "gigaray/samplers/any_sampler.h"
 
 namespace gigaray {
+namespace {
+
+void check_view(int view, int num_views) {
+  require_argument(view >= 0 && view < num_views, "view: the sampler has no such view");
+}
+
+}  // namespace
 
 EpiSampler::EpiSampler(const std::vector<View>& views) {
   for (const View& view : views) {
@@ -18,12 +26,14 @@ EpiSampler::EpiSampler(const std::vector<View>& views) {
 }
 
 EpiSampler EpiSampler::subset(const std::vector<int>& views) const {
+  for (const int view : views) check_view(view, num_views());
   EpiSampler some;
   for (const int view : views) some.s_.push_back(s_[view]);
   return some;
 }
 
 std::vector<float> EpiSampler::ray_table(int ref) const {
+  check_view(ref, num_views());
   std::vector<float> table;
   for (const double s : s_) table.push_back(float(s_[ref] - s));
   return table;
@@ -40,6 +50,7 @@ GridSampler::GridSampler(const std::vector<View>& views) {
 }
 
 RowRange GridSampler::rows_needed(int ref, RowRange rows, HypothesisRange range, int height) const {
+  check_view(ref, num_views());
   double farthest = 0;
   for (const Position& p : positions_)
     farthest = std::max(farthest, std::abs(p.t - positions_[ref].t));
@@ -54,12 +65,14 @@ GridSampler GridSampler::at_level(int level) const {
 }
 
 GridSampler GridSampler::subset(const std::vector<int>& views) const {
+  for (const int view : views) check_view(view, num_views());
   GridSampler some;
   for (const int view : views) some.positions_.push_back(positions_[view]);
   return some;
 }
 
 std::vector<float> GridSampler::ray_table(int ref) const {
+  check_view(ref, num_views());
   const Position from = positions_[ref];
   std::vector<float> table;
   for (const Position& p : positions_)
@@ -76,7 +89,7 @@ AnySampler make_sampler(const LightField& light_field) {
     case LightFieldKind::kUnstructured:
       return UnstructuredSampler(light_field.cameras, light_field.most_partners);
   }
-  GIGARAY_CHECK(false);
+  throw Error(ErrorCode::kInvalidArgument, "kind: names no kind of light field");
 }
 
 }  // namespace gigaray

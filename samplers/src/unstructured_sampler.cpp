@@ -8,12 +8,18 @@
 #include <cmath>
 #include <numbers>
 
+#include "gigaray/core/arguments.h"
+
 namespace gigaray {
 namespace {
 
 /// Nearer to the plane of the other camera than this share of the distance to the reference camera
 /// a point counts as behind it.
 constexpr double kBehind = 1e-4;
+
+void check_view(int view, int num_views) {
+  require_argument(view >= 0 && view < num_views, "view: the sampler has no such view");
+}
 
 Eigen::Matrix3d intrinsics(const Camera& camera) {
   Eigen::Matrix3d k = Eigen::Matrix3d::Identity();
@@ -98,12 +104,14 @@ std::vector<int> choose_partners(const std::vector<Camera>& cameras, int ref, in
 
 UnstructuredSampler::UnstructuredSampler(const std::vector<Camera>& cameras, int most_partners)
     : cameras_(cameras) {
-  for (const Camera& camera : cameras) GIGARAY_CHECK(camera.inverse_depth.has_value());
+  for (const Camera& camera : cameras)
+    require_argument(camera.inverse_depth.has_value(), "cameras: each needs its inverse_depth");
   for (int ref = 0; ref < num_views(); ++ref)
     partners_.push_back(choose_partners(cameras, ref, most_partners));
 }
 
 std::vector<int> UnstructuredSampler::nearest_partners(int ref, std::size_t most) const {
+  check_view(ref, num_views());
   std::vector<int> nearest = partners_[ref];
   std::erase(nearest, ref);
   const Eigen::Vector3d here = cameras_[ref].position();
@@ -132,6 +140,8 @@ UnstructuredSampler::Pair UnstructuredSampler::pair(int ref, int other) const {
 }
 
 UnstructuredSampler::Way UnstructuredSampler::way(int ref, int other) const {
+  check_view(ref, num_views());
+  check_view(other, num_views());
   const Pair go = pair(ref, other);
   Way way;
   way.from_ = *cameras_[ref].inverse_depth;
@@ -168,6 +178,7 @@ std::optional<Ray> UnstructuredSampler::locate(int ref, int other, Ray ray) cons
 
 RowRange UnstructuredSampler::rows_needed(int ref, RowRange rows, HypothesisRange range,
                                           int height) const {
+  check_view(ref, num_views());
   // A quotient of linear functions takes its extremes at the corners of (u, v, w), as long as all
   // are before the camera.
   const RowRange own = grown(rows, 0, height);
@@ -209,6 +220,7 @@ UnstructuredSampler UnstructuredSampler::at_level(int level) const {
 UnstructuredSampler UnstructuredSampler::subset(const std::vector<int>& views) const {
   UnstructuredSampler some;
   for (const int view : views) {
+    check_view(view, num_views());
     some.cameras_.push_back(cameras_[view]);
     std::vector<int> partners;
     for (std::size_t i = 0; i < views.size(); ++i)
@@ -220,6 +232,7 @@ UnstructuredSampler UnstructuredSampler::subset(const std::vector<int>& views) c
 }
 
 std::vector<float> UnstructuredSampler::ray_table(int ref) const {
+  check_view(ref, num_views());
   std::vector<float> table;
   for (int other = 0; other < num_views(); ++other) {
     const Way go = way(ref, other);
@@ -235,6 +248,8 @@ std::vector<float> UnstructuredSampler::ray_table(int ref) const {
 }
 
 double UnstructuredSampler::travel(int ref, int other) const {
+  check_view(ref, num_views());
+  check_view(other, num_views());
   const Ray centre{cameras_[ref].width / 2.0, cameras_[ref].height / 2.0, 0};
   const auto far = locate(ref, other, centre), near = locate(ref, other, {centre.u, centre.v, 1});
   return far && near ? std::hypot(near->u - far->u, near->v - far->v) : 0;

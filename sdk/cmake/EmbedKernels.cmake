@@ -48,7 +48,7 @@ foreach(i RANGE 5 ${last})
 endforeach()
 file(WRITE ${output}
   "// Generated from the kernel files.\n"
-  "#include <string_view>\n\n#include \"gigaray/error.h\"\n\n"
+  "#include <string_view>\n\n#include \"gigaray/core/error.h\"\n\n"
   "namespace {\n${texts}}  // namespace\n\n"
   "namespace ${namespace} {\n"
   "std::string_view kernel_source(std::string_view file_name) {\n${cases}"

@@ -7,10 +7,10 @@
 #include <utility>
 #include <vector>
 
-#include "gigaray/light_field.h"
-#include "gigaray/metrics.h"
-#include "gigaray/reconstruct.h"
-#include "gigaray/synthetic.h"
+#include "gigaray/core/light_field.h"
+#include "gigaray/core/metrics.h"
+#include "gigaray/core/synthetic.h"
+#include "gigaray/engine/reconstruct.h"
 
 namespace gigaray::testing_support {
 

@@ -12,9 +12,9 @@
 #include <string>
 #include <vector>
 
-#include "gigaray/metrics.h"
-#include "gigaray/reconstruct.h"
-#include "gigaray/synthetic_capture.h"
+#include "gigaray/core/metrics.h"
+#include "gigaray/core/synthetic_capture.h"
+#include "gigaray/engine/reconstruct.h"
 
 namespace gigaray {
 namespace {

@@ -14,7 +14,7 @@
 #include <string>
 
 #include "gigaray/adapters/reader.h"
-#include "gigaray/error.h"
+#include "gigaray/core/error.h"
 #include "support/errors.h"
 
 namespace gigaray {

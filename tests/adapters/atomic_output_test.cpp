@@ -105,7 +105,7 @@ TEST_F(AtomicOutput, WhatWasAddedOrChangedInAnOutputIsKept) {
       fs::create_directory(folder / "out" / added);
     else
       write("out/" + added, "thesis");
-    expect_refused("out", "--replace");
+    expect_refused("out", "OutputRules::replace");
     EXPECT_TRUE(fs::exists(folder / "out" / added));
     fs::remove_all(folder / "out");
   }
@@ -285,7 +285,8 @@ TEST_F(AtomicOutput, TemporaryFileIsRemovedWhenTheNameIsTakenMeanwhile) {
 
 TEST_F(AtomicOutput, AFileOfSomebodyElseIsRefused) {
   write("scene.ply", "mine");
-  expect_error(ErrorCode::kInvalidArgument, "--replace", [&] { make_file("scene.ply", "new"); });
+  expect_error(ErrorCode::kInvalidArgument, "OutputRules::replace",
+               [&] { make_file("scene.ply", "new"); });
   EXPECT_EQ(read("scene.ply"), "mine");
   make_file("scene.ply", "new", {{}, true});
   EXPECT_EQ(read("scene.ply"), "new");
@@ -293,7 +294,8 @@ TEST_F(AtomicOutput, AFileOfSomebodyElseIsRefused) {
   make_file("scene.ply", "newer");
   EXPECT_EQ(names(), (std::set<std::string>{"scene.ply", "scene.ply.old-1"}));
   write("scene.ply", "edited");
-  expect_error(ErrorCode::kInvalidArgument, "--replace", [&] { make_file("scene.ply", "x"); });
+  expect_error(ErrorCode::kInvalidArgument, "OutputRules::replace",
+               [&] { make_file("scene.ply", "x"); });
   EXPECT_EQ(read("scene.ply"), "edited");
 }
 

@@ -2,7 +2,7 @@
 // Copyright (c) 2026 The Gigaray authors
 #include "adapters/light_field_files.h"
 #include "gigaray/adapters/shrunk.h"
-#include "gigaray/metric_depth.h"
+#include "gigaray/core/metric_depth.h"
 
 namespace gigaray {
 namespace {

@@ -2,8 +2,8 @@
 // Copyright (c) 2026 The Gigaray authors
 #include "adapters/adapters_test.h"
 #include "adapters/colmap_scene.h"
+#include "formats/view_names.h"
 #include "gigaray/adapters/registry.h"
-#include "view_names.h"
 
 namespace gigaray {
 namespace {
@@ -169,7 +169,7 @@ TEST_F(ColmapWorkspace, MasksAreFoundUnderBothNames) {
 TEST_F(ColmapWorkspace, MissingPicturesAreCounted) {
   save_model("sparse/0");
   expect_bad_input("none of the 3 pictures");
-  expect_bad_input("--images");
+  expect_bad_input("OpenOptions::images");
   save("images/v0.png");
   expect_bad_input("v1.png: is missing, one of 2 of the 3 pictures");
   OpenOptions options;
@@ -218,7 +218,7 @@ TEST_F(ColmapWorkspace, OptionsThatDoNotGoWithItAreRefused) {
                [&] { open_light_field(folder / "images", options); });
   options = {};
   options.images = folder;
-  expect_error(ErrorCode::kInvalidArgument, "--images",
+  expect_error(ErrorCode::kInvalidArgument, "OpenOptions::images",
                [&] { open_light_field(folder / "images", options); });
 }
 

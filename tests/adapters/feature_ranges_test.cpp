@@ -5,7 +5,7 @@
 
 #include "adapters/adapters_test.h"
 #include "adapters/textured_planes.h"
-#include "gigaray/light_field.h"
+#include "gigaray/core/light_field.h"
 
 namespace gigaray {
 namespace {

@@ -12,8 +12,8 @@
 
 #include "adapters/adapters_test.h"
 #include "gigaray/adapters/maps.h"
-#include "picture_alpha.h"
-#include "picture_files.h"
+#include "pictures/picture_alpha.h"
+#include "pictures/picture_files.h"
 
 namespace gigaray {
 namespace {

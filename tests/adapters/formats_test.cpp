@@ -123,7 +123,7 @@ TEST_F(Hci, ContradictionsAreNamed) {
   expect_bad_input("num_cams_x");
   write("parameters.cfg", "num_cams_x = 0\n");
   expect_bad_input("num_cams_x");
-  expect_error(ErrorCode::kInvalidArgument, "--direction", [&] {
+  expect_error(ErrorCode::kInvalidArgument, "OpenOptions::direction", [&] {
     open_light_field(folder, {"", Travel::kLeft, Travel::kDown});
   });
 }

@@ -13,7 +13,9 @@
 
 #include "adapters/adapters_test.h"
 #include "adapters/light_field_files.h"
-#include "described_light_field.h"
+#include "formats/described_light_field.h"
+#include "formats/positions_file.h"
+#include "formats/section_file.h"
 #include "gigaray/adapters/colmap_maps.h"
 #include "gigaray/adapters/colmap_model.h"
 #include "gigaray/adapters/depth_result.h"
@@ -22,10 +24,8 @@
 #include "gigaray/adapters/maps.h"
 #include "gigaray/adapters/pictures.h"
 #include "gigaray/adapters/sparse_file.h"
-#include "gigaray/sparse_coding.h"
-#include "map_headers.h"
-#include "positions_file.h"
-#include "section_file.h"
+#include "gigaray/sparse/sparse_coding.h"
+#include "pictures/map_headers.h"
 
 namespace gigaray {
 namespace {

@@ -182,7 +182,7 @@ TEST_F(ImageSequence, BadPositionsNameTheFile) {
   expect_error(ErrorCode::kIo, "none.txt", [&] {
     open_light_field(folder, {folder / "none.txt", Travel::kAuto});
   });
-  expect_error(ErrorCode::kInvalidArgument, "--direction", [&] {
+  expect_error(ErrorCode::kInvalidArgument, "OpenOptions::direction", [&] {
     open_light_field(folder, {folder / "none.txt", Travel::kLeft});
   });
 }
@@ -201,7 +201,7 @@ TEST_F(ImageSequence, FolderWithoutALightFieldIsNamed) {
 TEST_F(ImageSequence, UnclearNamesAreRefused) {
   save("left.png");
   save("right.png");
-  expect_bad_input("--positions");
+  expect_bad_input("OpenOptions::positions");
   save("a1.jpg");
   save("a2.jpg");
   save("a3.jpg");

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "adapters/adapters_test.h"
-#include "gigaray/camera_order.h"
+#include "gigaray/engine/camera_order.h"
 #include "support/analytic_field.h"
 
 namespace gigaray {

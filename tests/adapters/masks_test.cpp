@@ -2,7 +2,7 @@
 // Copyright (c) 2026 The Gigaray authors
 // Masks of pictures: their names, sizes and types; of rows and grids, and what is transparent.
 #include "adapters/adapters_test.h"
-#include "mask_folder.h"
+#include "pictures/mask_folder.h"
 
 namespace gigaray {
 namespace {

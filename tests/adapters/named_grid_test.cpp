@@ -176,8 +176,9 @@ TEST_F(Lenslet, VignettedViewsAreLeftOutWithTheirPlaces) {
 TEST_F(Lenslet, BadInputIsNamed) {
   save("raw.png", cv::Mat(30, 28, CV_8UC3, cv::Scalar(50, 60, 70)));
   expect_error(ErrorCode::kBadInput, "28×30", [&] { open(14, 14); });
-  expect_error(ErrorCode::kBadInput, "--lenslet", [&] { open_light_field(folder / "raw.png"); });
-  expect_error(ErrorCode::kInvalidArgument, "--lenslet", [&] { open(1, 1); });
+  expect_error(ErrorCode::kBadInput, "OpenOptions::lenslet",
+               [&] { open_light_field(folder / "raw.png"); });
+  expect_error(ErrorCode::kInvalidArgument, "OpenOptions::lenslet", [&] { open(1, 1); });
   expect_error(ErrorCode::kInvalidArgument, "not one picture", [&] {
     open_light_field(folder, {"", Travel::kAuto, Travel::kAuto, {14, 14}});
   });

@@ -5,8 +5,8 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "adapters/adapters_test.h"
-#include "picture_alpha.h"
-#include "picture_values.h"
+#include "pictures/picture_alpha.h"
+#include "pictures/picture_values.h"
 
 namespace gigaray {
 namespace {

@@ -7,9 +7,9 @@
 
 #include "adapters/adapters_test.h"
 #include "adapters/picture_bytes.h"
-#include "file_type.h"
+#include "formats/file_type.h"
 #include "gigaray/adapters/pictures.h"
-#include "picture_files.h"
+#include "pictures/picture_files.h"
 
 namespace gigaray {
 namespace {

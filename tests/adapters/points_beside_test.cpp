@@ -6,7 +6,7 @@
 #include "adapters/adapters_test.h"
 #include "adapters/colmap_scene.h"
 #include "gigaray/adapters/pose_convention.h"
-#include "ply_points.h"
+#include "output/ply_points.h"
 
 namespace gigaray {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Gigaray authors
-#include "posed_pictures.h"
+#include "pictures/posed_pictures.h"
 
 #include <cmath>
 #include <thread>

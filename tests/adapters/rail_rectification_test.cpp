@@ -8,7 +8,7 @@
 #include "adapters/adapters_test.h"
 #include "gigaray/adapters/colmap_model.h"
 #include "gigaray/adapters/pictures.h"
-#include "gigaray/synthetic_capture.h"
+#include "gigaray/core/synthetic_capture.h"
 
 namespace gigaray {
 namespace {

@@ -204,7 +204,7 @@ TEST_F(StatedCameras, TransformsJsonNamesMasks) {
 TEST_F(StatedCameras, PicturesMayLieElsewhere) {
   save_pictures("far/away/");
   write("transforms.json", transforms().dump());
-  expect_bad(".", "none of the 3 pictures", "--images");
+  expect_bad(".", "none of the 3 pictures", "OpenOptions::images");
   OpenOptions options;
   options.images = folder / "far/away";
   expect_points_in_their_pixels(open_light_field(folder, options));

@@ -64,7 +64,7 @@ TEST_F(StatedGrid, WhatIsNoSuchGridIsRefused) {
   expect_refused(grid(5, 3), "5 rows");
   OpenOptions placed = grid(3, 4);
   placed.positions = folder / "places.txt";
-  expect_refused(placed, "--positions");
+  expect_refused(placed, "OpenOptions::positions");
 }
 
 TEST_F(StatedGrid, OtherFormatsRefuseIt) {
@@ -89,7 +89,7 @@ TEST_F(StatedGrid, InputCamsTakeAStatedGrid) {
   const LightField light_field = open_light_field(folder, grid(3, 5));
   EXPECT_EQ(light_field.views[5].s, -2);
   EXPECT_EQ(light_field.views[14].t, 1);
-  expect_bad_input("--grid", grid(3, 4));
+  expect_bad_input("OpenOptions::grid", grid(3, 4));
 }
 
 class DarkViews : public StatedGrid {

@@ -8,7 +8,7 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
-#include "gigaray/camera.h"
+#include "gigaray/core/camera.h"
 #include "support/cameras.h"
 
 namespace gigaray {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Gigaray authors
-#include "gigaray/interval_around.h"
+#include "gigaray/applications/interval_around.h"
 
 #include <gtest/gtest.h>
 

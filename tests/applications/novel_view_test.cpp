@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Gigaray authors
-#include "gigaray/novel_view.h"
+#include "gigaray/applications/novel_view.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "gigaray/picture_quality.h"
-#include "gigaray/refocus.h"
-#include "gigaray/rig_cameras.h"
+#include "gigaray/applications/picture_quality.h"
+#include "gigaray/applications/refocus.h"
+#include "gigaray/applications/rig_cameras.h"
 #include "support/analytic_field.h"
 #include "support/errors.h"
 
@@ -29,9 +29,9 @@ AnalyticField two_layers(std::vector<View> views) {
                         {{-0.5, 1}, {1.5, 2, 1, 30, 60, 12, 33}});
 }
 
-std::vector<SourceView> sources_of(const AnalyticField& field, const RigCameras& rig,
-                                   int without = -1) {
-  std::vector<SourceView> sources;
+std::vector<DepthView> sources_of(const AnalyticField& field, const RigCameras& rig,
+                                  int without = -1) {
+  std::vector<DepthView> sources;
   for (int view = 0; view < field.light_field.num_views(); ++view)
     if (view != without)
       sources.push_back({rig.camera(view), read_view(field.light_field, view),
@@ -125,7 +125,7 @@ TEST(NovelView, KnowsItsDepth) {
 TEST(NovelView, APointThatOthersSeeThroughIsNotShown) {
   const AnalyticField field = two_layers(row_of_views(7));
   const RigCameras rig(field.light_field, -0.5);
-  std::vector<SourceView> sources = sources_of(field, rig, 3);
+  std::vector<DepthView> sources = sources_of(field, rig, 3);
   const NovelView clean = render_view(rig.camera(3), sources, 8, {}, {});
   // A patch of one source floats in front of everything.
   for (int v = 38; v < 43; ++v)
@@ -154,7 +154,7 @@ TEST(NovelView, GapsShowWhatIsBehindAndAreToldApart) {
   const AnalyticField field = two_layers(row_of_views(5));
   const RigCameras rig(field.light_field, -0.5);
   // One source alone does not see what the patch hides.
-  const std::vector<SourceView> all = sources_of(field, rig);
+  const std::vector<DepthView> all = sources_of(field, rig);
   const NovelView novel = render_view(rig.camera(0), std::span(&all[4], 1), 8, {}, {});
   int gaps = 0;
   for (int v = 15; v < 30; ++v)

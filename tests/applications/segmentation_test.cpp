@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Gigaray authors
-#include "gigaray/segmentation.h"
+#include "gigaray/applications/segmentation.h"
 
 #include <gtest/gtest.h>
 

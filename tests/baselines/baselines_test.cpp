@@ -2,7 +2,7 @@
 // Copyright (c) 2026 The Gigaray authors
 //
 // Every baseline does what its paper says on a scene with exact depth.
-#include "baselines/baseline.h"
+#include "gigaray/baselines/baseline.h"
 
 #include <gtest/gtest.h>
 
@@ -10,9 +10,9 @@
 #include <cmath>
 #include <memory>
 
-#include "baselines/photo_consistency.h"
-#include "gigaray/region_metrics.h"
-#include "gigaray/synthetic.h"
+#include "gigaray/baselines/photo_consistency.h"
+#include "gigaray/core/region_metrics.h"
+#include "gigaray/core/synthetic.h"
 
 namespace gigaray::baselines {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Gigaray authors
-#include "baselines/pair.h"
+#include "gigaray/baselines/pair.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <opencv2/imgproc.hpp>
 #include <random>
 
-#include "baselines/labelling.h"
+#include "gigaray/baselines/labelling.h"
 
 namespace gigaray::baselines {
 namespace {

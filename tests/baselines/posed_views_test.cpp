@@ -9,10 +9,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "baselines/disparity_sampler.h"
-#include "baselines/pair.h"
-#include "baselines/photo_consistency.h"
-#include "gigaray/synthetic_capture.h"
+#include "gigaray/baselines/disparity_sampler.h"
+#include "gigaray/baselines/pair.h"
+#include "gigaray/baselines/photo_consistency.h"
+#include "gigaray/core/synthetic_capture.h"
 
 namespace gigaray::baselines {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "cli/program_test.h"
 #include "gigaray/adapters/maps.h"
-#include "gigaray/metrics.h"
+#include "gigaray/core/metrics.h"
 
 namespace gigaray {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Gigaray authors
-#include "gigaray/synthetic_capture.h"
+#include "gigaray/core/synthetic_capture.h"
 
 #include <gtest/gtest.h>
 

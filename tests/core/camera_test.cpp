@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Gigaray authors
-#include "gigaray/camera.h"
+#include "gigaray/core/camera.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <cmath>
 #include <functional>
 
-#include "gigaray/light_field.h"
+#include "gigaray/core/light_field.h"
 #include "support/errors.h"
 
 namespace gigaray {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Gigaray authors
-#include "gigaray/kept_pictures.h"
+#include "gigaray/core/kept_pictures.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <memory>
 #include <vector>
 
-#include "gigaray/parallel.h"
+#include "gigaray/core/parallel.h"
 #include "support/counting_pixels.h"
 
 namespace gigaray::testing_support {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Gigaray authors
-#include "gigaray/light_field.h"
+#include "gigaray/core/light_field.h"
 
 #include <gtest/gtest.h>
 

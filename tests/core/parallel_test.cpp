@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Gigaray authors
-#include "gigaray/parallel.h"
+#include "gigaray/core/parallel.h"
 
 #include <gtest/gtest.h>
 #include <stdlib.h>
@@ -16,7 +16,7 @@
 #include <thread>
 #include <vector>
 
-#include "gigaray/run_control.h"
+#include "gigaray/core/run_control.h"
 #include "support/errors.h"
 
 namespace gigaray {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Gigaray authors
-#include "gigaray/region_metrics.h"
+#include "gigaray/core/region_metrics.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <limits>
 #include <numbers>
 
-#include "gigaray/error.h"
+#include "gigaray/core/error.h"
 
 namespace gigaray {
 namespace {

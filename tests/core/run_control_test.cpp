@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Gigaray authors
-#include "gigaray/run_control.h"
+#include "gigaray/core/run_control.h"
 
 #include <gtest/gtest.h>
 
@@ -43,6 +43,23 @@ TEST(RunControl, WhatReturnsIsReturned) {
   RunControl control;
   control.cancel();
   EXPECT_EQ(control.stop_or_fail([] { return 7; }), 7);
+}
+
+TEST(RunControl, APartStopsWithTheWholeAndReportsThroughIt) {
+  std::vector<std::string> stages, messages;
+  RunControl whole;
+  whole.on_progress = [&](const std::string& stage, double, double) { stages.push_back(stage); };
+  whole.on_message = [&](const std::string& text) { messages.push_back(text); };
+  const RunControl part(whole, "first half"), of_part(part, "its half");
+  part.progress("level 0", 1, 2);
+  of_part.progress("level 0", 1, 2);
+  part.message("heard by nobody");
+  EXPECT_EQ(stages, (std::vector<std::string>{"first half, level 0", "its half, level 0"}));
+  EXPECT_TRUE(messages.empty());
+  EXPECT_FALSE(of_part.cancelled());
+  whole.cancel();
+  EXPECT_TRUE(of_part.cancelled());
+  EXPECT_EQ(code_of(of_part, [&] { of_part.throw_if_cancelled(); }), ErrorCode::kCancelled);
 }
 
 }  // namespace

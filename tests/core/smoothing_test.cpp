@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Gigaray authors
-#include "gigaray/smoothing.h"
+#include "gigaray/core/smoothing.h"
 
 #include <gtest/gtest.h>
 
@@ -42,6 +42,65 @@ TEST(Smoothing, OfALightFieldSmoothsEveryViewAsItIsRead) {
   EXPECT_EQ(smooth.pixels->read(0), smooth_picture(picture, 1));
   EXPECT_EQ(smooth.pixels->read(1)(3, 3, 1), 7);
   EXPECT_EQ(field.pixels->read(0), picture) << "the original stays";
+}
+
+TEST(Halving, TakesEverySecondPixelOfSmoothPicturesAndTheCamerasFollow) {
+  Image<std::uint16_t> picture(11, 8, 4);
+  for (int v = 0; v < 8; ++v)
+    for (int u = 0; u < 11; ++u) {
+      for (int c = 0; c < 3; ++c) picture(u, v, c) = std::uint16_t(20 * u + 3 * v + c);
+      picture(u, v, 3) = u < 6 ? 255 : 0;
+    }
+  class Masked : public PixelSource {
+   public:
+    explicit Masked(Image<std::uint16_t> picture) : picture_(std::move(picture)) {}
+    Image<std::uint16_t> read(int) const override { return picture_; }
+    int bit_depth() const override { return 8; }
+    bool has_mask() const override { return true; }
+    void let_go(int) const override { FAIL() << "somebody reads it once more"; }
+
+   private:
+    Image<std::uint16_t> picture_;
+  };
+  LightField field;
+  field.kind = LightFieldKind::kUnstructured;
+  field.width = 11;
+  field.height = 8;
+  field.views = {{"a", 0, 0}, {"b", 1, 0}};
+  Camera camera;
+  camera.width = 11;
+  camera.height = 8;
+  camera.focal_u = 12;
+  camera.focal_v = 13;
+  camera.centre_u = 5;
+  camera.centre_v = 3.5;
+  field.cameras = {camera, camera};
+  field.pixels = std::make_shared<Masked>(picture);
+  const LightField half = halved(field);
+  EXPECT_EQ(half.width, 6);
+  EXPECT_EQ(half.height, 4);
+  const Image<std::uint16_t> smooth = smooth_picture(picture, std::sqrt(0.5));
+  const Image<std::uint16_t> small = half.pixels->read(1);
+  half.pixels->let_go(1);
+  ASSERT_EQ(small.width(), 6);
+  ASSERT_EQ(small.height(), 4);
+  for (int v = 0; v < 4; ++v)
+    for (int u = 0; u < 6; ++u) {
+      for (int c = 0; c < 3; ++c) EXPECT_EQ(small(u, v, c), smooth(2 * u, 2 * v, c));
+      EXPECT_EQ(small(u, v, 3), picture(2 * u, 2 * v, 3));
+    }
+  // A point that is seen at a pixel of the half is seen there in the whole.
+  const Camera& scaled = half.cameras[1];
+  EXPECT_EQ(scaled.width, 6);
+  const Eigen::Vector3d point = scaled.back_project(4, 3, 2);
+  EXPECT_NEAR(camera.project(point).x(), 8, 1e-12);
+  EXPECT_NEAR(camera.project(point).y(), 6, 1e-12);
+}
+
+TEST(Halving, IsForPosedCameras) {
+  LightField field;
+  field.kind = LightFieldKind::k4D;
+  EXPECT_THROW(halved(field), Error);
 }
 
 }  // namespace

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Gigaray authors
-#include "gigaray/calibration.h"
+#include "gigaray/engine/calibration.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "gigaray/reconstruct.h"
+#include "gigaray/engine/reconstruct.h"
 
 namespace gigaray {
 namespace {

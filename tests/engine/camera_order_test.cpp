@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Gigaray authors
-#include "gigaray/camera_order.h"
+#include "gigaray/engine/camera_order.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <optional>
 #include <vector>
 
-#include "gigaray/reconstruct.h"
+#include "gigaray/engine/reconstruct.h"
 #include "support/analytic_field.h"
 #include "support/errors.h"
 
@@ -152,7 +152,7 @@ TEST(CheckDirection, PicturesThatDoNotMatchAreRefusedByName) {
   LightField light_field = analytic_field(93, 61, grid_of_views(3, 3), {{0.5, 1, 0}}).light_field;
   light_field.sign_is_assumed = true;
   Messages messages;
-  expect_error(ErrorCode::kBadInput, {"--disparity"},
+  expect_error(ErrorCode::kBadInput, {"DepthOptions::disparity"},
                [&] { check_direction(light_field, messages.control); });
 }
 
@@ -253,12 +253,12 @@ TEST(Reconstruct, ADirectionThatNothingTellsIsRefused) {
   below.top = 48;
   LightField light_field = analytic_field(161, 95, row_of_views(7), {above, below}).light_field;
   light_field.sign_is_assumed = true;
-  expect_error(ErrorCode::kInvalidArgument, {"--direction", "sign_is_assumed"}, [&] {
+  expect_error(ErrorCode::kInvalidArgument, {"OpenOptions::direction", "sign_is_assumed"}, [&] {
     depth_of(light_field, DisparityRange{-2, 2}, RunControl());
   });
   DepthOptions options = auto_options();
   options.disparity = DisparityRange{-2, 2};
-  expect_error(ErrorCode::kInvalidArgument, {"--direction"}, [&] {
+  expect_error(ErrorCode::kInvalidArgument, {"OpenOptions::direction"}, [&] {
     probe(light_field, options, {"reference", ""}, 3, 40, 40, RunControl());
   });
 }

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <set>
 
-#include "gigaray/reconstruct.h"
+#include "gigaray/engine/reconstruct.h"
 #include "support/analytic_field.h"
 #include "support/errors.h"
 

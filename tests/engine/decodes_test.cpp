@@ -3,8 +3,8 @@
 // A run decodes each picture once, whoever looks at it.
 #include <gtest/gtest.h>
 
-#include "gigaray/reconstruct.h"
-#include "gigaray/smoothing.h"
+#include "gigaray/core/smoothing.h"
+#include "gigaray/engine/reconstruct.h"
 #include "support/analytic_field.h"
 #include "support/counting_pixels.h"
 #include "support/posed_field.h"

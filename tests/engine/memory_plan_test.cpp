@@ -216,7 +216,7 @@ TEST(MemoryPlan, UnstructuredViewsThatReachFarSayWhatHelps) {
   LightField near = column_of_cameras(100, 0.0005);
   EXPECT_LE(plan_memory(near, options, hypotheses, DeviceLimits{}).forecast.bands, 16);
   LightField far = column_of_cameras(100, 0.002);
-  expect_error(ErrorCode::kOutOfMemory, {"--partners", "--max-size"},
+  expect_error(ErrorCode::kOutOfMemory, {"DepthOptions::most_partners", "smaller pictures"},
                [&] { plan_memory(far, options, hypotheses, DeviceLimits{}); });
   far.most_partners = 20;
   EXPECT_NO_THROW(plan_memory(far, options, hypotheses, DeviceLimits{}));

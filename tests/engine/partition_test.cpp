@@ -11,7 +11,7 @@
 
 #include "engine/cache_fixture.h"
 #include "engine/planned_run.h"
-#include "gigaray/estimator.h"
+#include "gigaray/engine/estimator.h"
 #include "opencl/device.h"
 #include "support/analytic_field.h"
 #include "support/errors.h"

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/cache_fixture.h"
-#include "gigaray/synthetic.h"
+#include "gigaray/core/synthetic.h"
 #include "support/analytic_field.h"
 #include "support/depth_result.h"
 #include "support/errors.h"

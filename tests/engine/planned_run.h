@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "gigaray/device.h"
+#include "gigaray/engine/device.h"
 #include "gigaray/samplers/any_sampler.h"
 #include "opencl/opencl_workspace.h"
 #include "src/make_workspace.h"

@@ -5,8 +5,8 @@
 #include <gtest/gtest.h>
 
 #include "engine/cache_fixture.h"
-#include "gigaray/device.h"
-#include "gigaray/reconstruct.h"
+#include "gigaray/engine/device.h"
+#include "gigaray/engine/reconstruct.h"
 #include "opencl/pocl_cache.h"
 #include "support/analytic_field.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Gigaray authors
-#include "gigaray/scene_estimates.h"
+#include "gigaray/engine/scene_estimates.h"
 
 #include <gtest/gtest.h>
 
@@ -53,7 +53,7 @@ TEST(RangeEstimate, LargePicturesAreSearchedSmall) {
 TEST(RangeEstimate, PicturesWithoutTextureAskForARange) {
   const RunControl control;
   const AnalyticField flat = analytic_field(93, 61, row_of_views(5), {{0.5, 1, 0}});
-  expect_error(ErrorCode::kBadInput, {"--disparity"},
+  expect_error(ErrorCode::kBadInput, {"DepthOptions::disparity"},
                [&] { estimate_disparity_range(flat.light_field, control); });
 }
 

@@ -6,7 +6,7 @@
 
 #include "engine/lane_check.h"
 #include "engine/masked_pictures.h"
-#include "gigaray/reconstruct.h"
+#include "gigaray/engine/reconstruct.h"
 #include "support/depth_result.h"
 
 namespace gigaray::testing_support {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Gigaray authors
-#include "gigaray/tune.h"
+#include "gigaray/engine/tune.h"
 
 #include <gtest/gtest.h>
 
 #include "engine/cache_fixture.h"
-#include "gigaray/device.h"
+#include "gigaray/engine/device.h"
 #include "tuning/kernel_trial.h"
 
 namespace gigaray {

@@ -6,7 +6,7 @@
 #include <set>
 
 #include "engine/cache_fixture.h"
-#include "gigaray/scene_estimates.h"
+#include "gigaray/engine/scene_estimates.h"
 #include "support/depth_result.h"
 #include "support/errors.h"
 #include "support/memory_limits.h"

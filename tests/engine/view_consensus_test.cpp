@@ -10,8 +10,8 @@
 #include <cmath>
 #include <functional>
 
-#include "gigaray/calibration.h"
-#include "gigaray/parallel.h"
+#include "gigaray/core/parallel.h"
+#include "gigaray/engine/calibration.h"
 #include "support/cameras.h"
 #include "support/errors.h"
 

@@ -7,8 +7,8 @@
 #include <string>
 #include <string_view>
 
-#include "colmap_model_files.h"
-#include "gigaray/error.h"
+#include "colmap/colmap_model_files.h"
+#include "gigaray/core/error.h"
 
 using gigaray::ColmapModel;
 using gigaray::ColmapParser;

@@ -9,7 +9,7 @@
 #include <string>
 #include <string_view>
 
-#include "gigaray/error.h"
+#include "gigaray/core/error.h"
 
 namespace gigaray::fuzz {
 

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <string_view>
 
-#include "gigaray/error.h"
+#include "gigaray/core/error.h"
 
 namespace gigaray::fuzz {
 

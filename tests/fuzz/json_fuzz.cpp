@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Gigaray authors
 // gigaray.json of light fields and of results, and transforms.json.
-#include "described_light_field.h"
+#include "formats/described_light_field.h"
+#include "formats/stated_views.h"
 #include "fuzz.h"
 #include "gigaray/adapters/input_file.h"
-#include "stated_views.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const gigaray::fuzz::Input input(data, size, 3);

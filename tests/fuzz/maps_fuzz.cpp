@@ -5,7 +5,7 @@
 #include "fuzz.h"
 #include "gigaray/adapters/colmap_maps.h"
 #include "gigaray/adapters/maps.h"
-#include "map_headers.h"
+#include "pictures/map_headers.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const gigaray::fuzz::Input input(data, size, 3);

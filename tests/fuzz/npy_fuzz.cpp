@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Gigaray authors
 // NumPy arrays: any, and poses_bounds.npy.
+#include "formats/npy_matrix.h"
+#include "formats/stated_views.h"
 #include "fuzz.h"
-#include "npy_matrix.h"
-#include "stated_views.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const gigaray::fuzz::Input input(data, size, 2);

@@ -3,7 +3,7 @@
 // Pictures of any format that libvips may open here: header and pixels.
 #include "file_of_bytes.h"
 #include "fuzz.h"
-#include "picture_files.h"
+#include "pictures/picture_files.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const gigaray::fuzz::Input input(data, size, 2);

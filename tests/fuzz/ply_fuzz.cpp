@@ -2,7 +2,7 @@
 // Copyright (c) 2026 The Gigaray authors
 // Points of a scene beside its cameras.
 #include "fuzz.h"
-#include "ply_points.h"
+#include "output/ply_points.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const gigaray::fuzz::Input input(data, size, 1);

@@ -2,9 +2,9 @@
 // Copyright (c) 2026 The Gigaray authors
 // Sections of a .grl file whose checksums are right: directory, tuples, differences, and blocks
 // that state other sizes than they have.
+#include "formats/sparse_file_parts.h"
 #include "fuzz.h"
-#include "gigaray/sparse_coding.h"
-#include "sparse_file_parts.h"
+#include "gigaray/sparse/sparse_coding.h"
 
 namespace {
 

@@ -2,11 +2,11 @@
 // Copyright (c) 2026 The Gigaray authors
 // Text: parameters.cfg of HCI scenes, Middlebury's par and calib files, Strecha's .camera files,
 // MVSNet's cam files, positions.
+#include "formats/hci_parameters.h"
+#include "formats/positions_file.h"
+#include "formats/stated_views.h"
+#include "formats/stereo_calibration.h"
 #include "fuzz.h"
-#include "hci_parameters.h"
-#include "positions_file.h"
-#include "stated_views.h"
-#include "stereo_calibration.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const gigaray::fuzz::Input input(data, size, 7);

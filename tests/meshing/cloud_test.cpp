@@ -6,14 +6,15 @@
 
 #include <map>
 
+#include "gigaray/core/synthetic_solid.h"
 #include "src/thin_cloud.h"
 #include "src/tile_store.h"
 #include "support/errors.h"
-#include "support/solid_scene.h"
 
 namespace gigaray {
 namespace {
 
+using namespace solids;
 using namespace testing_support;
 
 constexpr int kSize = 61;

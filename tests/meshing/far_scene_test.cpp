@@ -4,16 +4,16 @@
 // Scenes in world coordinates: as fine as at the origin.
 #include <gtest/gtest.h>
 
+#include "gigaray/core/synthetic_solid.h"
 #include "gigaray/meshing/cloud.h"
 #include "gigaray/meshing/cloud_mesh.h"
 #include "gigaray/meshing/grid_mesh.h"
 #include "gigaray/meshing/mesh_processing.h"
-#include "support/solid_scene.h"
 
 namespace gigaray {
 namespace {
 
-using namespace testing_support;
+using namespace solids;
 using Eigen::Vector3d;
 
 constexpr int kSize = 61;

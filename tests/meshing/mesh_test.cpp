@@ -4,17 +4,18 @@
 // Surfaces of solids of known shape, by all methods.
 #include <gtest/gtest.h>
 
+#include "gigaray/core/synthetic_solid.h"
 #include "gigaray/meshing/cloud.h"
 #include "gigaray/meshing/cloud_mesh.h"
 #include "gigaray/meshing/grid_mesh.h"
 #include "gigaray/meshing/mesh_processing.h"
 #include "gigaray/meshing/mesh_report.h"
 #include "support/errors.h"
-#include "support/solid_scene.h"
 
 namespace gigaray {
 namespace {
 
+using namespace solids;
 using namespace testing_support;
 
 constexpr int kSize = 61;

@@ -4,13 +4,13 @@
 
 #include <gtest/gtest.h>
 
+#include "gigaray/core/synthetic_solid.h"
 #include "gigaray/meshing/cloud.h"
-#include "support/solid_scene.h"
 
 namespace gigaray {
 namespace {
 
-using namespace testing_support;
+using namespace solids;
 
 constexpr int kSize = 73;
 
@@ -62,7 +62,7 @@ TEST(PlainGround, IsWhiteOrBlackInAllViews) {
   DepthViews views = sphere_on({255, 255, 255});
   views.read = [read = views.read](int index) {
     DepthView view = read(index);
-    if (index == 4) std::ranges::fill(view.picture, std::uint8_t(90));
+    if (index == 4) std::ranges::fill(view.picture, std::uint16_t(90));
     return view;
   };
   EXPECT_FALSE(plain_ground(views, {}));

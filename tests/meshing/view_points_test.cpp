@@ -6,12 +6,13 @@
 
 #include <set>
 
+#include "gigaray/core/synthetic_solid.h"
 #include "support/errors.h"
-#include "support/solid_scene.h"
 
 namespace gigaray {
 namespace {
 
+using namespace solids;
 using namespace testing_support;
 
 constexpr int kSize = 73;

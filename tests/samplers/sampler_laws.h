@@ -8,7 +8,7 @@
 #include <cmath>
 #include <random>
 
-#include "gigaray/ray_sampler.h"
+#include "gigaray/core/ray_sampler.h"
 
 namespace gigaray::testing_support {
 

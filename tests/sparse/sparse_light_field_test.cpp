@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Gigaray authors
-#include "gigaray/sparse_light_field.h"
+#include "gigaray/sparse/sparse_light_field.h"
 
 #include <gtest/gtest.h>
 

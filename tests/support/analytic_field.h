@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "gigaray/light_field.h"
+#include "gigaray/core/light_field.h"
 
 namespace gigaray::testing_support {
 

@@ -2,7 +2,7 @@
 // Copyright (c) 2026 The Gigaray authors
 #pragma once
 
-#include "gigaray/camera.h"
+#include "gigaray/core/camera.h"
 
 namespace gigaray::testing_support {
 

@@ -10,7 +10,7 @@
 #include <map>
 #include <vector>
 
-#include "gigaray/reconstruct.h"
+#include "gigaray/engine/reconstruct.h"
 
 namespace gigaray::testing_support {
 

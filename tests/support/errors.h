@@ -4,10 +4,11 @@
 
 #include <gtest/gtest.h>
 
+#include <exception>
 #include <string>
 #include <vector>
 
-#include "gigaray/error.h"
+#include "gigaray/core/error.h"
 
 namespace gigaray::testing_support {
 
@@ -23,6 +24,22 @@ void expect_error(ErrorCode code, const std::vector<std::string>& parts, Call&& 
     EXPECT_EQ(message.find('\n'), std::string::npos) << message;
     for (const std::string& part : parts)
       EXPECT_NE(message.find(part), std::string::npos) << part << " is not in: " << message;
+  }
+}
+
+/// Expects that a call with arguments that can't be meant throws an Error of one line, of any code.
+template <class Call>
+void expect_mistake(const char* what, Call&& call) {
+  SCOPED_TRACE(what);
+  try {
+    call();
+    ADD_FAILURE() << "no error: " << what;
+  } catch (const Error& error) {
+    const std::string message = error.what();
+    EXPECT_FALSE(message.empty());
+    EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+  } catch (const std::exception& other) {
+    ADD_FAILURE() << what << ": no Error, but " << other.what();
   }
 }
 

@@ -8,7 +8,7 @@
 #include <numbers>
 #include <utility>
 
-#include "gigaray/jpeg_blocks.h"
+#include "gigaray/core/jpeg_blocks.h"
 
 namespace gigaray::testing_support {
 

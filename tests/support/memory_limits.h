@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "gigaray/reconstruct.h"
+#include "gigaray/engine/reconstruct.h"
 
 namespace gigaray::testing_support {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Gigaray authors
-#include "gigaray/interval_around.h"
+#include "gigaray/applications/interval_around.h"
 
 #include <algorithm>
 #include <array>
@@ -8,13 +8,19 @@
 #include <utility>
 #include <vector>
 
-#include "gigaray/error.h"
+#include "gigaray/core/arguments.h"
+#include "gigaray/core/error.h"
 
 namespace gigaray {
 namespace {
 
 constexpr double kFarther = 0.1;  // of the range of the map
 constexpr double kLow = 0.01, kHigh = 0.99;
+
+void check_pixel(const FloatMap& map, int u, int v) {
+  require_argument(u >= 0 && v >= 0 && u < map.width() && v < map.height() && map.channels() == 1,
+                   "u, v: must be a pixel of the map, which has one channel");
+}
 
 std::vector<float> known_values(const FloatMap& map) {
   std::vector<float> values;
@@ -38,7 +44,7 @@ float range_of(const FloatMap& map) {
 }  // namespace
 
 std::optional<float> value_around(const FloatMap& map, int u, int v, float jump) {
-  GIGARAY_CHECK(u >= 0 && v >= 0 && u < map.width() && v < map.height());
+  check_pixel(map, u, v);
   const float own = map(u, v);
   if (!std::isfinite(own)) return std::nullopt;
   std::vector<float> values;
@@ -54,6 +60,9 @@ float jump_of(const FloatMap& map, float step) {
 }
 
 ValueInterval interval_around(const FloatMap& map, int u, int v, float value, float jump) {
+  check_pixel(map, u, v);
+  require_argument(std::isfinite(value) && jump >= 0,
+                   "value, jump: finite numbers are needed, the jump 0 or more");
   const auto farthest = std::max(float(kFarther * range_of(map)), jump);
   Mask seen(map.width(), map.height());
   std::vector<std::pair<int, int>> front{{u, v}};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Gigaray authors
-#include "gigaray/novel_view.h"
+#include "gigaray/applications/novel_view.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -10,7 +10,8 @@
 #include <numeric>
 #include <optional>
 
-#include "gigaray/parallel.h"
+#include "gigaray/core/arguments.h"
+#include "gigaray/core/parallel.h"
 
 namespace gigaray {
 namespace {
@@ -22,7 +23,7 @@ constexpr int kSilhouette = 3;
 /// Inverse depth that a source's points give the new view.
 class SplatMap {
  public:
-  SplatMap(const Camera& camera, const SourceView& source, float tolerance)
+  SplatMap(const Camera& camera, const DepthView& source, float tolerance)
       : nearest_(camera.width, camera.height, 1, kNoEstimate) {
     const Camera& from = source.camera;
     Image<float> sum(camera.width, camera.height), weight(camera.width, camera.height);
@@ -81,7 +82,7 @@ struct Look {
 
 class Renderer {
  public:
-  Renderer(const Camera& camera, std::span<const SourceView> sources, int bit_depth,
+  Renderer(const Camera& camera, std::span<const DepthView> sources, int bit_depth,
            const NovelViewOptions& options)
       : camera_(camera),
         sources_(sources),
@@ -89,7 +90,7 @@ class Renderer {
         options_(options),
         tolerance_(float(options.tolerance)) {
     if (!(tolerance_ > 0)) tolerance_ = 0.01f * span_of_sources();
-    for (const SourceView& source : sources_)
+    for (const DepthView& source : sources_)
       votes_.push_back((source.camera.position() - camera_.position()).norm());
     std::vector<double> sorted = votes_;
     std::nth_element(sorted.begin(), sorted.begin() + sorted.size() / 2, sorted.end());
@@ -125,7 +126,7 @@ class Renderer {
  private:
   float span_of_sources() const {
     float least = std::numeric_limits<float>::max(), most = 0;
-    for (const SourceView& source : sources_)
+    for (const DepthView& source : sources_)
       for (const float w : source.inverse_depth) {
         if (!(w > 0)) continue;
         least = std::min(least, w);
@@ -134,7 +135,7 @@ class Renderer {
     return most > least ? most - least : 1;
   }
 
-  Look look(const SourceView& source, const Eigen::Vector3d& point) const {
+  Look look(const DepthView& source, const Eigen::Vector3d& point) const {
     Look look{Sight::kOutside, source.camera.project(point)};
     if (!(look.place.z() > 0)) return look;
     const double u = look.place.x(), v = look.place.y();
@@ -212,7 +213,7 @@ class Renderer {
     }
   }
 
-  static std::array<double, 3> sample(const SourceView& source, double u, double v) {
+  static std::array<double, 3> sample(const DepthView& source, double u, double v) {
     const Image<std::uint16_t>& picture = source.picture;
     u = std::clamp(u, 0.0, double(picture.width() - 1));
     v = std::clamp(v, 0.0, double(picture.height() - 1));
@@ -229,7 +230,7 @@ class Renderer {
   }
 
   /// Angle between the looks, worse resolution, nearness to the border: rad.
-  double penalty(const SourceView& source, const Look& look, const Eigen::Vector3d& point) const {
+  double penalty(const DepthView& source, const Look& look, const Eigen::Vector3d& point) const {
     const BlendOptions& blend = options_.blend;
     const Eigen::Vector3d there = point - source.camera.position();
     const Eigen::Vector3d here = point - camera_.position();
@@ -256,7 +257,7 @@ class Renderer {
     std::array<Part, kMostSources> parts;
     int count = 0;
     const Eigen::Vector3d point = camera_.back_project(u, v, 1 / inverse_depth);
-    for (const SourceView& source : sources_) {
+    for (const DepthView& source : sources_) {
       const Look found = look(source, point);
       if (std::ranges::find(sights, found.sight) != sights.end())
         parts[count++] = {penalty(source, found, point),
@@ -290,7 +291,7 @@ class Renderer {
   }
 
   const Camera& camera_;
-  std::span<const SourceView> sources_;
+  std::span<const DepthView> sources_;
   double most_;
   const NovelViewOptions& options_;
   float tolerance_;
@@ -300,24 +301,32 @@ class Renderer {
 
 }  // namespace
 
-NovelView render_view(const Camera& camera, std::span<const SourceView> sources, int bit_depth,
+NovelView render_view(const Camera& camera, std::span<const DepthView> sources, int bit_depth,
                       const NovelViewOptions& options, const RunControl& control) {
   if (sources.empty() || sources.size() > kMostSources)
     throw Error(ErrorCode::kInvalidArgument, "a novel view is made of 1 … " +
                                                  std::to_string(kMostSources) + " views, not of " +
                                                  std::to_string(sources.size()));
+  require_argument(bit_depth >= 1 && bit_depth <= 16, "bit_depth: must be between 1 and 16");
+  require_argument(
+      camera.width >= 1 && camera.height >= 1 && camera.focal_u > 0 && camera.focal_v > 0,
+      "camera: needs a width, a height and focal lengths above 0");
   if (options.blend.most_views < 1)
     throw Error(ErrorCode::kInvalidArgument, "a pixel needs one view or more to be mixed of");
-  for (const SourceView& source : sources)
-    GIGARAY_CHECK(source.picture.width() == source.camera.width &&
-                  source.picture.height() == source.camera.height &&
-                  source.inverse_depth.width() == source.camera.width &&
-                  source.inverse_depth.height() == source.camera.height);
+  for (const DepthView& source : sources)
+    require_argument(source.picture.width() == source.camera.width &&
+                         source.picture.height() == source.camera.height &&
+                         source.picture.channels() >= 3 &&
+                         source.inverse_depth.width() == source.camera.width &&
+                         source.inverse_depth.height() == source.camera.height,
+                     "sources: picture and inverse_depth must be as large as the camera's, the "
+                     "picture with three channels");
   return Renderer(camera, sources, bit_depth, options).run(control);
 }
 
 std::vector<int> nearest_cameras(const std::vector<Camera>& cameras, const Camera& camera, int most,
                                  int exclude) {
+  if (cameras.empty() || most <= 0) return {};
   std::vector<double> distances;
   for (const Camera& other : cameras)
     distances.push_back((other.position() - camera.position()).norm());

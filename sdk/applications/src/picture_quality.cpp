@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Gigaray authors
-#include "gigaray/picture_quality.h"
+#include "gigaray/applications/picture_quality.h"
 
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 #include <opencv2/quality.hpp>
+
+#include "gigaray/core/arguments.h"
 
 namespace gigaray {
 namespace {
@@ -23,8 +25,13 @@ cv::Mat scaled_to_255(const Image<std::uint16_t>& picture, int bit_depth) {
 PictureQuality picture_quality(const Image<std::uint16_t>& picture,
                                const Image<std::uint16_t>& truth, int bit_depth,
                                const Mask& shown) {
-  GIGARAY_CHECK(picture.width() == truth.width() && picture.height() == truth.height() &&
-                picture.channels() == 3 && truth.channels() == 3);
+  require_argument(picture.width() == truth.width() && picture.height() == truth.height() &&
+                       picture.channels() == 3 && truth.channels() == 3 && !picture.empty(),
+                   "picture, truth: must be of one size, with three channels");
+  require_argument(bit_depth >= 1 && bit_depth <= 16, "bit_depth: must be 1 … 16");
+  require_argument(shown.empty() || (shown.width() == picture.width() &&
+                                     shown.height() == picture.height() && shown.channels() == 1),
+                   "shown: must be as large as the picture, or empty");
   cv::Mat counts(picture.height(), picture.width(), CV_8U, cv::Scalar(255));
   for (std::size_t i = 0; i < shown.size(); ++i) counts.data[i] = shown.data()[i] ? 255 : 0;
   double squares = 0, number = 0;

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Gigaray authors
-#include "gigaray/refocus.h"
+#include "gigaray/applications/refocus.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <vector>
 
-#include "gigaray/parallel.h"
+#include "gigaray/core/arguments.h"
+#include "gigaray/core/parallel.h"
+#include "gigaray/core/srgb.h"
 #include "gigaray/samplers/any_sampler.h"
-#include "gigaray/srgb.h"
 
 namespace gigaray {
 namespace {
@@ -50,6 +51,12 @@ class LightAt {
 
 Image<std::uint16_t> refocus(const LightField& light_field, int view, FocalPlane plane,
                              double aperture, const RunControl& control) {
+  check(light_field);
+  require_argument(view >= 0 && view < light_field.num_views(), "view: there is no such view");
+  require_argument(
+      std::isfinite(plane.value) && std::isfinite(plane.along_u) && std::isfinite(plane.along_v),
+      "plane: finite numbers are needed");
+  require_argument(aperture >= 0, "aperture: must be 0 or more");
   const int bit_depth = light_field.pixels->bit_depth();
   const int most = (1 << bit_depth) - 1;
   std::vector<float> table(most + 1);

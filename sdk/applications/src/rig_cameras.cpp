@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Gigaray authors
-#include "gigaray/rig_cameras.h"
+#include "gigaray/applications/rig_cameras.h"
 
 #include <algorithm>
 
-#include "gigaray/metric_depth.h"
+#include "gigaray/core/arguments.h"
+#include "gigaray/core/metric_depth.h"
 
 namespace gigaray {
 
@@ -14,6 +15,8 @@ RigCameras::RigCameras(const LightField& light_field, double least_disparity)
     cameras_ = light_field.cameras;
     return;
   }
+  require_argument(width_ >= 1 && height_ >= 1, "light_field: has no width and height");
+  require_argument(std::isfinite(least_disparity), "least_disparity: must be a finite number");
   const RigGeometry& rig = light_field.rig;
   is_metric_ = has_metric_depth(rig);
   principal_point_ = {0.5 * (width_ - 1), 0.5 * (height_ - 1)};
@@ -30,7 +33,8 @@ RigCameras::RigCameras(const LightField& light_field, double least_disparity)
 }
 
 Camera RigCameras::camera_at(double s, double t) const {
-  GIGARAY_CHECK(kind_ != LightFieldKind::kUnstructured);
+  require_argument(kind_ != LightFieldKind::kUnstructured,
+                   "unstructured light fields have no camera at a position s, t");
   Camera camera;
   camera.width = width_;
   camera.height = height_;

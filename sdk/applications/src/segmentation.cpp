@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Gigaray authors
-#include "gigaray/segmentation.h"
+#include "gigaray/applications/segmentation.h"
 
 #include <algorithm>
 
-#include "gigaray/parallel.h"
+#include "gigaray/core/arguments.h"
+#include "gigaray/core/parallel.h"
 
 namespace gigaray {
 namespace {
@@ -19,7 +20,8 @@ void segment_part(const float* values, std::uint8_t* inside, std::size_t count, 
 }  // namespace
 
 void segment(const FloatMap& map, ValueInterval interval, Mask& mask) {
-  if (mask.width() != map.width() || mask.height() != map.height())
+  require_argument(map.channels() == 1, "map: must have one channel");
+  if (mask.width() != map.width() || mask.height() != map.height() || mask.channels() != 1)
     mask = Mask(map.width(), map.height());
   // Threads cost more than they bring for a small map.
   constexpr std::size_t kPart = std::size_t(1) << 22;

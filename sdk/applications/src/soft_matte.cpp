@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <opencv2/imgproc.hpp>
 
-#include "gigaray/segmentation.h"
+#include "gigaray/applications/segmentation.h"
+
+#include "gigaray/core/arguments.h"
 
 namespace gigaray {
 namespace {
@@ -65,7 +67,8 @@ FloatMap soft_matte(const Mask& mask, const Image<std::uint16_t>& picture, int b
                 "the soft edge has a radius of " + std::to_string(options.radius) +
                     " px and a contrast of " + std::to_string(options.contrast) +
                     "; the radius must be 1 … 64, the contrast above 0");
-  GIGARAY_CHECK(picture.width() == mask.width() && picture.height() == mask.height());
+  require_argument(picture.width() == mask.width() && picture.height() == mask.height(),
+                   "mask: must be as large as the picture");
   const cv::Mat hard(mask.height(), mask.width(), CV_8U, const_cast<std::uint8_t*>(mask.data()));
   const cv::Mat window = cv::getStructuringElement(
       cv::MORPH_ELLIPSE, {2 * options.radius + 1, 2 * options.radius + 1});

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <string>
 
-#include "gigaray/error.h"
+#include "gigaray/core/arguments.h"
 
 namespace gigaray {
 namespace {
@@ -23,6 +23,7 @@ struct Flow {
 std::vector<Flow> flows_of(const RadialLens& lens, const std::vector<Track>& tracks) {
   std::vector<Flow> flows;
   for (const Track& track : tracks) {
+    require_argument(!track.empty(), "tracks: one has no sightings");
     const auto [first, last] = std::minmax_element(
         track.begin(), track.end(),
         [](const Sighting& a, const Sighting& b) { return a.view_idx < b.view_idx; });
@@ -79,6 +80,7 @@ Rail known_order_start(int num_views, const RadialLens& lens, const std::vector<
   if (num_views < 3)
     throw Error(ErrorCode::kBadInput,
                 "a rail needs 3 views or more, there are " + std::to_string(num_views));
+  require_argument(lens.focal > 0 && std::isfinite(lens.focal), "lens.focal: must be above 0");
   const std::vector<Flow> flows = flows_of(lens, tracks);
   if (flows.size() < kLeastTracks)
     throw Error(ErrorCode::kBadInput, "the pictures share too few features (" +

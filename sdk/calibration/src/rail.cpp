@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gigaray/core/arguments.h"
+
 namespace gigaray {
 
 Eigen::Vector2d RadialLens::project(const Eigen::Vector2d& direction) const {
@@ -42,11 +44,18 @@ Eigen::Vector2d RadialLens::direction(const Eigen::Vector2d& pixel) const {
 
 namespace {
 
+void check_view(const Rail& rail, int view_idx) {
+  require_argument(
+      view_idx >= 0 && view_idx < rail.num_views() && std::size_t(view_idx) < rail.turns.size(),
+      "view_idx: the rail has no such view");
+}
+
 Eigen::Vector3d travel_in_common_frame(const Rail& rail) { return rail.rotation * rail.direction; }
 
 }  // namespace
 
 Eigen::Vector2d project(const Rail& rail, int view_idx, const RailPoint& point) {
+  check_view(rail, view_idx);
   const Eigen::Vector3d ray =
       rail.turns[view_idx] *
       (point.direction.homogeneous() -
@@ -61,6 +70,7 @@ RailPoint triangulate(const Rail& rail, const Track& track) {
   Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
   Eigen::Vector3d right = Eigen::Vector3d::Zero();
   for (const Sighting& sighting : track) {
+    check_view(rail, sighting.view_idx);
     const Eigen::Vector2d seen = (rail.turns[sighting.view_idx].transpose() *
                                   rail.lens.direction(sighting.pixel).homogeneous())
                                      .hnormalized();

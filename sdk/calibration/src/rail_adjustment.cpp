@@ -13,8 +13,9 @@
 #include <numbers>
 #include <string>
 
-#include "gigaray/error.h"
-#include "gigaray/parallel.h"
+#include "gigaray/core/arguments.h"
+#include "gigaray/core/error.h"
+#include "gigaray/core/parallel.h"
 
 namespace gigaray {
 namespace {
@@ -346,7 +347,8 @@ void check_start(const Rail& start, const std::vector<Track>& tracks) {
   const auto bad = [](const std::string& what) { return Error(ErrorCode::kBadInput, what); };
   if (start.num_views() < 3)
     throw bad("a rail needs 3 views or more, there are " + std::to_string(start.num_views()));
-  GIGARAY_CHECK(start.turns.size() == start.positions.size());
+  require_argument(start.turns.size() == start.positions.size(),
+                   "start.turns: one for each position is needed");
   const auto [first, last] = std::minmax_element(start.positions.begin(), start.positions.end());
   if (!std::isfinite(*first) || !std::isfinite(*last) || !(*last > *first) ||
       !start.direction.allFinite() || !start.rotation.allFinite())
@@ -354,9 +356,10 @@ void check_start(const Rail& start, const std::vector<Track>& tracks) {
   if (!(start.lens.focal > 0) || !std::isfinite(start.lens.focal))
     throw bad("the focal length is not a positive number");
   for (const Track& track : tracks) {
-    GIGARAY_CHECK(track.size() >= 2);
+    require_argument(track.size() >= 2, "tracks: each needs two sightings or more");
     for (const Sighting& sighting : track) {
-      GIGARAY_CHECK(sighting.view_idx >= 0 && sighting.view_idx < start.num_views());
+      require_argument(sighting.view_idx >= 0 && sighting.view_idx < start.num_views(),
+                       "tracks: a sighting is of a view that is not there");
       if (!sighting.pixel.allFinite()) throw bad("a feature's place is not a finite number");
     }
   }

@@ -8,12 +8,16 @@
 #include <cmath>
 #include <numbers>
 
-#include "gigaray/error.h"
+#include "gigaray/core/arguments.h"
+#include "gigaray/core/error.h"
 
 namespace gigaray {
 
 Eigen::Matrix3d rectifying_rotation(const Eigen::Matrix3d& common_rotation,
                                     const Eigen::Vector3d& rail_direction) {
+  require_argument(
+      common_rotation.allFinite() && rail_direction.allFinite() && rail_direction.norm() > 0,
+      "common_rotation, rail_direction: finite numbers are needed, a direction that is not 0");
   constexpr double kLeastAngleDeg = 30;
   Eigen::Vector3d x = rail_direction.normalized();
   const Eigen::Vector3d view = common_rotation.row(2).transpose();
@@ -59,6 +63,10 @@ std::vector<Track> rectified_tracks(const Rail& rail, const Camera& rectified,
   std::vector<Track> result = tracks;
   for (Track& track : result)
     for (Sighting& sighting : track) {
+      require_argument(
+          sighting.view_idx >= 0 &&
+              std::size_t(sighting.view_idx) < std::min(rail.positions.size(), rail.turns.size()),
+          "tracks: a sighting is of a view that is not there");
       const Eigen::Vector3d ray = rectified.rotation *
                                   rail.view_rotation(sighting.view_idx).transpose() *
                                   rail.lens.direction(sighting.pixel).homogeneous();

@@ -5,6 +5,8 @@
 
 #include "gigaray/calibration/rectifying_rotation.h"
 
+#include "gigaray/core/arguments.h"
+
 namespace gigaray {
 namespace {
 
@@ -36,6 +38,8 @@ Cells largest_under(const std::vector<int>& heights, int bottom) {
 
 std::optional<PixelRectangle> largest_valid_rectangle(
     const PixelRectangle& bounds, int step, const std::function<bool(int u, int v)>& valid) {
+  require_argument(step >= 1, "step: must be 1 or more");
+  require_argument(bool(valid), "valid: is empty");
   const int columns = (bounds.width - 1) / step, rows = (bounds.height - 1) / step;
   if (columns < 1 || rows < 1) return std::nullopt;
   const auto row_of_raster = [&](int row) {

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Gigaray authors
-#include "gigaray/camera.h"
+#include "gigaray/core/camera.h"
 
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
-#include "gigaray/error.h"
+#include "gigaray/core/arguments.h"
+#include "gigaray/core/error.h"
 
 namespace gigaray {
 
@@ -48,8 +49,11 @@ void check(const Camera& camera, const std::string& name) {
 }
 
 InverseDepthRange all_inverse_depths(const std::vector<Camera>& cameras) {
+  require_argument(!cameras.empty() && cameras.front().inverse_depth,
+                   "cameras: each needs its inverse_depth, there must be one");
   InverseDepthRange all = *cameras.front().inverse_depth;
   for (const Camera& camera : cameras) {
+    require_argument(camera.inverse_depth.has_value(), "cameras: each needs its inverse_depth");
     all.min = std::min(all.min, camera.inverse_depth->min);
     all.max = std::max(all.max, camera.inverse_depth->max);
   }

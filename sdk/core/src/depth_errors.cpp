@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <limits>
 
-#include "gigaray/error.h"
-#include "gigaray/metrics.h"
+#include "gigaray/core/error.h"
+#include "gigaray/core/metrics.h"
 #include "scored_pixels.h"
 
 namespace gigaray {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Gigaray authors
-#include "gigaray/error.h"
+#include "gigaray/core/error.h"
 
 #include <cstdio>
 #include <cstdlib>

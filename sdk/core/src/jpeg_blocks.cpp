@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Gigaray authors
-#include "gigaray/jpeg_blocks.h"
+#include "gigaray/core/jpeg_blocks.h"
 
 #include <algorithm>
 #include <array>

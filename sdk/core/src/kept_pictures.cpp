@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Gigaray authors
-#include "gigaray/kept_pictures.h"
+#include "gigaray/core/kept_pictures.h"
 
 #include <sys/mman.h>
 
@@ -12,16 +12,11 @@
 #include <unordered_map>
 #include <utility>
 
-#include "gigaray/memory_limit.h"
+#include "gigaray/core/arguments.h"
+#include "gigaray/core/memory_limit.h"
 
 namespace gigaray {
 namespace {
-
-/// The program with OpenCL takes about so much; what is made of the pictures takes the rest.
-double room_in(double limit) {
-  constexpr double kProgram = 224 * double(1 << 20), kShare = 1.0 / 3;
-  return kShare * (limit - kProgram);
-}
 
 /// Bytes in pages of their own, which go back to the system at once: a heap would keep them.
 class Pages {
@@ -88,7 +83,7 @@ struct KeptPictures::Impl {
     const double needed = double(picture.size()) * value_bytes;
     {
       const std::lock_guard lock(mutex);
-      if (!most) most = room_in(memory_bytes > 0 ? memory_bytes : default_memory_limit());
+      if (!most) most = most_bytes(memory_bytes);
       if (bytes + needed > *most || pictures.contains(key)) return;
       bytes += needed;  // it is copied without the lock
     }
@@ -145,9 +140,17 @@ class KeptPictures::Source : public PixelSource {
 KeptPictures::KeptPictures(double memory_bytes) : impl_(std::make_unique<Impl>(memory_bytes)) {}
 KeptPictures::~KeptPictures() = default;
 
+double KeptPictures::most_bytes(double memory_bytes) {
+  // The program with OpenCL takes about so much; what is made of the pictures takes the rest.
+  constexpr double kProgram = 224 * double(1 << 20), kShare = 1.0 / 3;
+  const double limit = memory_bytes > 0 ? memory_bytes : default_memory_limit();
+  return std::max(kShare * (limit - kProgram), 0.0);
+}
+
 std::shared_ptr<const PixelSource> KeptPictures::over(std::shared_ptr<KeptPictures> kept,
                                                       std::shared_ptr<const PixelSource> pixels,
                                                       std::vector<std::string> keys) {
+  require_argument(pixels != nullptr, "pixels: is null");
   if (!kept || pixels->is_held()) return pixels;
   return std::make_shared<Source>(std::move(kept), std::move(pixels), std::move(keys));
 }

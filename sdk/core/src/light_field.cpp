@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Gigaray authors
-#include "gigaray/light_field.h"
+#include "gigaray/core/light_field.h"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
@@ -10,6 +10,8 @@
 #include <set>
 #include <tuple>
 
+#include "gigaray/core/arguments.h"
+
 namespace gigaray {
 namespace {
 
@@ -17,7 +19,11 @@ class PicturesInMemory : public PixelSource {
  public:
   PicturesInMemory(std::vector<Image<std::uint16_t>> pictures, int bit_depth)
       : pictures_(std::move(pictures)), bit_depth_(bit_depth) {}
-  Image<std::uint16_t> read(int view_idx) const override { return pictures_.at(view_idx); }
+  Image<std::uint16_t> read(int view_idx) const override {
+    require_argument(view_idx >= 0 && std::size_t(view_idx) < pictures_.size(),
+                     "view_idx: there is no picture of this view");
+    return pictures_[std::size_t(view_idx)];
+  }
   int bit_depth() const override { return bit_depth_; }
   bool is_held() const override { return true; }
 
@@ -31,7 +37,9 @@ class PicturesOfLightField : public PixelSource {
   PicturesOfLightField(LightField light_field, std::vector<int> which)
       : light_field_(std::move(light_field)), which_(std::move(which)) {}
   Image<std::uint16_t> read(int view_idx) const override {
-    return read_view(light_field_, which_.at(std::size_t(view_idx)));
+    require_argument(view_idx >= 0 && std::size_t(view_idx) < which_.size(),
+                     "view_idx: there is no picture of this view");
+    return read_view(light_field_, which_[std::size_t(view_idx)]);
   }
   bool has_mask() const override { return light_field_.pixels->has_mask(); }
   int bit_depth() const override { return light_field_.pixels->bit_depth(); }
@@ -44,6 +52,14 @@ class PicturesOfLightField : public PixelSource {
   LightField light_field_;
   std::vector<int> which_;
 };
+
+void check_view(const LightField& light_field, int view_idx) {
+  require_argument(light_field.pixels != nullptr, "light_field.pixels: is null");
+  if (view_idx < 0 || view_idx >= light_field.num_views())
+    throw Error(ErrorCode::kInvalidArgument, "view " + std::to_string(view_idx) + ": there are " +
+                                                 std::to_string(light_field.num_views()) +
+                                                 " views");
+}
 
 [[noreturn]] void bad(const std::string& message) { throw Error(ErrorCode::kBadInput, message); }
 
@@ -89,6 +105,7 @@ void check(const LightField& light_field) {
 }
 
 Image<std::uint16_t> read_view(const LightField& light_field, int view_idx) {
+  check_view(light_field, view_idx);
   Image<std::uint16_t> picture = light_field.pixels->read(view_idx);
   const auto size = [](int width, int height) {
     return std::to_string(width) + "x" + std::to_string(height);
@@ -103,11 +120,16 @@ Image<std::uint16_t> read_view(const LightField& light_field, int view_idx) {
 }
 
 std::shared_ptr<const PixelSource> pictures_of(LightField light_field, std::vector<int> which) {
+  for (const int view : which) check_view(light_field, view);
   return std::make_shared<PicturesOfLightField>(std::move(light_field), std::move(which));
 }
 
 LightField without(LightField light_field, const std::vector<int>& views) {
   if (views.empty()) return light_field;
+  for (const int view : views) check_view(light_field, view);
+  require_argument(
+      light_field.cameras.empty() || light_field.cameras.size() == light_field.views.size(),
+      "light_field.cameras: one for each view is needed");
   LightField rest = light_field;
   rest.views.clear();
   rest.cameras.clear();
@@ -123,8 +145,9 @@ LightField without(LightField light_field, const std::vector<int>& views) {
     if (!light_field.cameras.empty()) rest.cameras.push_back(light_field.cameras[i]);
   }
   if (kept.size() < 2)
-    throw Error(ErrorCode::kInvalidArgument, "--without: two views or more must be left of " +
-                                                 std::to_string(light_field.num_views()));
+    throw Error(ErrorCode::kInvalidArgument,
+                "views to leave out: two views or more must be left of " +
+                    std::to_string(light_field.num_views()));
   rest.pixels = pictures_of(std::move(light_field), std::move(kept));
   return rest;
 }
@@ -156,10 +179,13 @@ std::vector<int> views_from_centre(const LightField& light_field) {
   return order;
 }
 
-int centre_view(const LightField& light_field) { return views_from_centre(light_field).front(); }
+int centre_view(const LightField& light_field) {
+  require_argument(!light_field.views.empty(), "views: there are none");
+  return views_from_centre(light_field).front();
+}
 
 double normalise_positions(std::vector<View>& views) {
-  GIGARAY_CHECK(views.size() >= 2);
+  require_argument(views.size() >= 2, "views: two or more are needed");
   const auto [s_min, s_max] = std::minmax_element(
       views.begin(), views.end(), [](const View& a, const View& b) { return a.s < b.s; });
   const auto [t_min, t_max] = std::minmax_element(
@@ -183,7 +209,8 @@ double normalise_positions(std::vector<View>& views) {
 
 double place_by_cameras(LightField& light_field) {
   const auto count = Eigen::Index(light_field.cameras.size());
-  GIGARAY_CHECK(count >= 2 && light_field.cameras.size() == light_field.views.size());
+  require_argument(count >= 2 && light_field.cameras.size() == light_field.views.size(),
+                   "cameras: two or more are needed, one for each view");
   Eigen::Matrix3Xd positions(3, count);
   for (Eigen::Index i = 0; i < count; ++i)
     positions.col(i) = light_field.cameras[std::size_t(i)].position();
@@ -233,6 +260,7 @@ LightFieldKind kind_from_positions(const std::vector<View>& views) {
 
 std::shared_ptr<const PixelSource> pixels_in_memory(std::vector<Image<std::uint16_t>> pictures,
                                                     int bit_depth) {
+  require_argument(bit_depth >= 1 && bit_depth <= 16, "bit_depth: must be between 1 and 16");
   return std::make_shared<PicturesInMemory>(std::move(pictures), bit_depth);
 }
 

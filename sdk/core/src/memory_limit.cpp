@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Gigaray authors
-#include "gigaray/memory_limit.h"
+#include "gigaray/core/memory_limit.h"
 
 #include <sys/resource.h>
 #include <unistd.h>

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Gigaray authors
-#include "gigaray/metric_depth.h"
+#include "gigaray/core/metric_depth.h"
+
+#include "gigaray/core/arguments.h"
 
 namespace gigaray {
 
 bool has_metric_depth(const RigGeometry& rig) { return rig.focal_px && rig.baseline; }
 
 FloatMap depth_from_disparity(const FloatMap& disparity, const RigGeometry& rig) {
-  GIGARAY_CHECK(has_metric_depth(rig));
+  require_argument(has_metric_depth(rig), "rig: depth needs its focal_px and baseline");
   const double scale = *rig.focal_px * *rig.baseline;
   const double infinity =
       rig.focus_distance ? scale / *rig.focus_distance : 0;  // its disparity, −d
@@ -30,7 +32,8 @@ FloatMap depth_from_disparity(const FloatMap& disparity, const LightField& light
 }
 
 double disparity_of_depth(double depth, const LightField& light_field) {
-  GIGARAY_CHECK(has_metric_depth(light_field) && depth > 0);
+  require_argument(has_metric_depth(light_field), "rig: depth needs its focal_px and baseline");
+  require_argument(depth > 0, "depth: must be a distance above 0");
   if (light_field.kind == LightFieldKind::kUnstructured) return 1 / depth;
   const RigGeometry& rig = light_field.rig;
   const double scale = *rig.focal_px * *rig.baseline;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Gigaray authors
-#include "gigaray/parallel.h"
+#include "gigaray/core/parallel.h"
 
 #include <algorithm>
 #include <atomic>
@@ -12,7 +12,7 @@
 #include <thread>
 
 #include "control_groups.h"
-#include "gigaray/error.h"
+#include "gigaray/core/error.h"
 #include "task_arena.h"
 
 namespace gigaray {

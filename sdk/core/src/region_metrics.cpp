@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Gigaray authors
-#include "gigaray/region_metrics.h"
+#include "gigaray/core/region_metrics.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@
 #include <string>
 #include <utility>
 
-#include "gigaray/error.h"
+#include "gigaray/core/error.h"
 #include "scored_pixels.h"
 
 namespace gigaray {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <string>
 
-#include "gigaray/error.h"
+#include "gigaray/core/error.h"
 
 namespace gigaray::metrics {
 namespace {

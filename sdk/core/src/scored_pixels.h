@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "gigaray/image.h"
+#include "gigaray/core/image.h"
 
 namespace gigaray::metrics {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Gigaray authors
-#include "gigaray/scratch_file.h"
+#include "gigaray/core/scratch_file.h"
 
 #include <fcntl.h>
 #include <sys/resource.h>
@@ -12,7 +12,7 @@
 #include <filesystem>
 #include <utility>
 
-#include "gigaray/error.h"
+#include "gigaray/core/error.h"
 
 namespace gigaray {
 namespace {

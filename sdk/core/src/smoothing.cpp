@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Gigaray authors
-#include "gigaray/smoothing.h"
+#include "gigaray/core/smoothing.h"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 #include <vector>
+
+#include "gigaray/core/arguments.h"
 
 namespace gigaray {
 namespace {
@@ -22,6 +24,11 @@ std::vector<float> half_gaussian(double sigma) {
   std::vector<float> normalised;
   for (const double weight : weights) normalised.push_back(float(weight / sum));
   return normalised;
+}
+
+void check_sigma(double sigma) {
+  constexpr double kMost = 1000;
+  require_argument(sigma > 0 && sigma <= kMost, "sigma: must be above 0, 1000 at most");
 }
 
 class SmoothedPixels : public PixelSource {
@@ -44,9 +51,32 @@ class SmoothedPixels : public PixelSource {
   double sigma_;
 };
 
+class HalvedPixels : public PixelSource {
+ public:
+  explicit HalvedPixels(const LightField& light_field)
+      : light_field_(smoothed(light_field, std::sqrt(0.5))) {}
+  Image<std::uint16_t> read(int view_idx) const override {
+    const Image<std::uint16_t> picture = read_view(light_field_, view_idx);
+    const int channels = picture.channels();
+    Image<std::uint16_t> half(half_of(picture.width()), half_of(picture.height()), channels);
+    for (int v = 0; v < half.height(); ++v)
+      for (int u = 0; u < half.width(); ++u)
+        std::copy_n(picture.row(2 * v) + 2 * u * channels, channels, half.row(v) + u * channels);
+    return half;
+  }
+  bool has_mask() const override { return light_field_.pixels->has_mask(); }
+  int bit_depth() const override { return light_field_.pixels->bit_depth(); }
+
+  static int half_of(int size) { return (size + 1) / 2; }
+
+ private:
+  LightField light_field_;
+};
+
 }  // namespace
 
 Image<std::uint16_t> smooth_picture(const Image<std::uint16_t>& picture, double sigma) {
+  check_sigma(sigma);
   const std::vector<float> weights = half_gaussian(sigma);
   const int radius = int(weights.size()) - 1, width = picture.width(), height = picture.height();
   const int channels = picture.channels(), line = width * channels;
@@ -72,7 +102,22 @@ Image<std::uint16_t> smooth_picture(const Image<std::uint16_t>& picture, double 
 }
 
 LightField smoothed(LightField light_field, double sigma) {
+  check_sigma(sigma);
+  require_argument(light_field.pixels != nullptr, "light_field.pixels: is null");
   light_field.pixels = std::make_shared<SmoothedPixels>(light_field.pixels, sigma);
+  return light_field;
+}
+
+LightField halved(LightField light_field) {
+  if (light_field.kind != LightFieldKind::kUnstructured)
+    throw Error(ErrorCode::kInvalidArgument, "only light fields of posed cameras can be halved");
+  light_field.pixels = std::make_shared<HalvedPixels>(light_field);
+  for (int* size : {&light_field.width, &light_field.height}) *size = HalvedPixels::half_of(*size);
+  for (Camera& camera : light_field.cameras) {
+    for (int* size : {&camera.width, &camera.height}) *size = HalvedPixels::half_of(*size);
+    for (double* length : {&camera.focal_u, &camera.focal_v, &camera.centre_u, &camera.centre_v})
+      *length /= 2;
+  }
   return light_field;
 }
 

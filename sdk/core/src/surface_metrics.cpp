@@ -5,7 +5,7 @@
 #include <numbers>
 #include <vector>
 
-#include "gigaray/region_metrics.h"
+#include "gigaray/core/region_metrics.h"
 #include "scored_pixels.h"
 
 namespace gigaray {

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Gigaray authors
-#include "gigaray/synthetic.h"
+#include "gigaray/core/synthetic.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <string>
 
-#include "gigaray/parallel.h"
+#include "gigaray/core/arguments.h"
+#include "gigaray/core/parallel.h"
 #include "synthetic_noise.h"
 #include "synthetic_options.h"
 #include "synthetic_scene.h"
@@ -131,6 +132,7 @@ LightField describe_synthetic(const SyntheticOptions& options) {
 
 void render_synthetic_views(const SyntheticOptions& options, const RunControl& control,
                             const SyntheticViewSink& sink) {
+  require_argument(bool(sink), "sink: is empty");
   options.check();
   const std::vector<View> views = synthetic::make_views(options);
   const synthetic::Scene scene = synthetic::build_scene(options);

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Gigaray authors
-#include "gigaray/synthetic_capture.h"
+#include "gigaray/core/synthetic_capture.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "gigaray/light_field.h"
-#include "gigaray/parallel.h"
+#include "gigaray/core/arguments.h"
+#include "gigaray/core/light_field.h"
+#include "gigaray/core/parallel.h"
 #include "synthetic_noise.h"
 #include "synthetic_options.h"
 #include "synthetic_scene.h"
@@ -222,6 +223,7 @@ SyntheticCapture describe_synthetic_capture(const SyntheticOptions& options,
 
 void render_synthetic_capture(const SyntheticOptions& options, const SyntheticPath& path,
                               const RunControl& control, const SyntheticPhotographSink& sink) {
+  require_argument(bool(sink), "sink: is empty");
   check(options, path);
   const std::vector<Camera> cameras = cameras_along(options, path);
   const synthetic::Scene scene = synthetic::build_scene(options);

@@ -7,9 +7,9 @@
 #include <limits>
 #include <vector>
 
-#include "gigaray/camera.h"
-#include "gigaray/light_field.h"
-#include "gigaray/synthetic.h"
+#include "gigaray/core/camera.h"
+#include "gigaray/core/light_field.h"
+#include "gigaray/core/synthetic.h"
 #include "synthetic_vec.h"
 
 namespace gigaray::synthetic {

@@ -30,15 +30,16 @@ cl::Buffer create(const Device& device, cl_mem_flags flags, std::size_t bytes, v
     throw Error(ErrorCode::kOutOfMemory,
                 "device " + info.name + ": a buffer of " + readable_size(bytes) +
                     " is larger than its largest allocation of " +
-                    readable_size(info.max_allocation) + "; use less --memory or another --device");
+                    readable_size(info.max_allocation) +
+                    "; use less DepthOptions::memory_bytes or another device");
   cl_int error = CL_SUCCESS;
   cl::Buffer memory(device.context(), flags, bytes, host, &error);
   if (error == CL_MEM_OBJECT_ALLOCATION_FAILURE || error == CL_OUT_OF_HOST_MEMORY ||
       error == CL_OUT_OF_RESOURCES)
-    throw Error(ErrorCode::kOutOfMemory, "device " + info.name + ": no room for a buffer of " +
-                                             readable_size(bytes) + " in its memory of " +
-                                             readable_size(info.global_memory) +
-                                             "; use less --memory or another --device");
+    throw Error(ErrorCode::kOutOfMemory,
+                "device " + info.name + ": no room for a buffer of " + readable_size(bytes) +
+                    " in its memory of " + readable_size(info.global_memory) +
+                    "; use less DepthOptions::memory_bytes or another device");
   check_cl(error, "clCreateBuffer of " + readable_size(bytes));
   return memory;
 }
@@ -86,8 +87,8 @@ Buffer Buffer::zeroed(const Device& device, std::size_t bytes) {
   constexpr int kProtection = PROT_READ | PROT_WRITE, kFlags = MAP_PRIVATE | MAP_ANONYMOUS;
   void* const begin = mmap(nullptr, bytes, kProtection, kFlags, -1, 0);
   if (begin == MAP_FAILED)
-    throw Error(ErrorCode::kOutOfMemory,
-                "no room for a buffer of " + readable_size(bytes) + "; use less --memory");
+    throw Error(ErrorCode::kOutOfMemory, "no room for a buffer of " + readable_size(bytes) +
+                                             "; use less DepthOptions::memory_bytes");
   auto pages = std::make_unique<Pages>(Pages{begin, bytes});
   madvise(begin, bytes, MADV_HUGEPAGE);  // without large pages it is only slower
   Buffer buffer;

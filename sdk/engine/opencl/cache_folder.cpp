@@ -11,8 +11,8 @@
 #include <fstream>
 #include <string>
 
-#include "gigaray/device.h"
-#include "gigaray/scratch_file.h"
+#include "gigaray/core/scratch_file.h"
+#include "gigaray/engine/device.h"
 #include "opencl/pocl_cache.h"
 
 namespace gigaray::opencl {

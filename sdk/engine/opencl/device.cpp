@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "gigaray/core/arguments.h"
 #include "opencl/cache_folder.h"
 #include "opencl/pocl_cache.h"
 #include "opencl/ready_kernels.h"
@@ -284,7 +285,7 @@ std::vector<DeviceInfo> select_devices(const std::string& selections) {
 }
 
 Device::Device(std::shared_ptr<const opencl::Device> opened) : opened_(std::move(opened)) {
-  GIGARAY_CHECK(opened_ != nullptr);
+  require_argument(opened_ != nullptr, "opened: is null");
 }
 
 Device Device::open(const std::string& selection) {

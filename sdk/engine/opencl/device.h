@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "gigaray/device.h"
+#include "gigaray/engine/device.h"
 #include "opencl/errors.h"
 #include "opencl/event_log.h"
 

@@ -2,7 +2,7 @@
 // Copyright (c) 2026 The Gigaray authors
 #include "opencl/errors.h"
 
-#include "gigaray/error.h"
+#include "gigaray/core/error.h"
 
 namespace gigaray::opencl {
 

@@ -88,7 +88,7 @@ void KernelSet::check_local_memory(const std::string& entry, std::size_t bytes) 
   const auto kib = [](std::size_t size) { return std::to_string((size + 1023) / 1024) + " KiB"; };
   throw Error(ErrorCode::kDevice, "kernel " + entry + " needs " + kib(bytes) +
                                       " of local memory, device " + info.name + " has " +
-                                      kib(info.local_memory) + "; use another --device");
+                                      kib(info.local_memory) + "; use another device");
 }
 
 Tuning KernelSet::tuning_of(const std::string& kernel) const {

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "gigaray/device.h"
+#include "gigaray/engine/device.h"
 
 namespace gigaray::opencl {
 

@@ -4,8 +4,8 @@
 
 #include <vector>
 
-#include "gigaray/ray_sampler.h"
-#include "gigaray/reconstruct.h"
+#include "gigaray/core/ray_sampler.h"
+#include "gigaray/engine/reconstruct.h"
 #include "src/estimates.h"
 #include "src/strip_map.h"
 

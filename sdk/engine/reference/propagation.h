@@ -4,7 +4,7 @@
 
 #include "band.h"
 #include "estimates.h"
-#include "gigaray/depth_options.h"
+#include "gigaray/engine/depth_options.h"
 
 namespace gigaray::reference {
 

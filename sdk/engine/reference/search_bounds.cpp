@@ -17,16 +17,17 @@ struct Interval {
   }
 };
 
-HypothesisBounds hypotheses_between(Interval interval, int margin, const HypothesisRange& range) {
+}  // namespace
+
+HypothesisBounds hypotheses_between(float low, float high, int margin,
+                                    const HypothesisRange& range) {
   const auto index = [&](double h) {
     return std::clamp((h - range.min) / range.step(), 0.0, double(range.count - 1));
   };
-  const int first = std::max(int(std::floor(index(interval.low))) - margin, 0);
-  const int last = std::min(int(std::ceil(index(interval.high))) + margin, range.count - 1);
+  const int first = std::max(int(std::floor(index(low))) - margin, 0);
+  const int last = std::min(int(std::ceil(index(high))) + margin, range.count - 1);
   return {std::uint16_t(first), std::uint16_t(last)};
 }
-
-}  // namespace
 
 void coarsen_bounds(std::span<const PackedEstimate> estimates, std::span<const Search> search,
                     int width, const HypothesisRange& range, std::span<Search> coarse) {
@@ -72,7 +73,7 @@ void coarsen_bounds(std::span<const PackedEstimate> estimates, std::span<const S
 }
 
 HypothesisBounds bounds_of(const Search& search, const HypothesisRange& range) {
-  return hypotheses_between({search.low, search.high}, 1, range);
+  return hypotheses_between(search.low, search.high, 1, range);
 }
 
 void bound_thin_holes(RowRange rows, MapView<const std::uint8_t> todo,
@@ -88,7 +89,8 @@ void bound_thin_holes(RowRange rows, MapView<const std::uint8_t> todo,
       for (int y = std::max(v - kAround, 0); y <= std::min(v + kAround, height - 1); ++y)
         for (int x = std::max(u - kAround, 0); x <= std::min(u + kAround, width - 1); ++x)
           around.join({estimates.row(y)[x], estimates.row(y)[x]});
-      if (around.known()) bounds.row(v)[u] = hypotheses_between(around, kMargin, range);
+      if (around.known())
+        bounds.row(v)[u] = hypotheses_between(around.low, around.high, kMargin, range);
     }
 }
 

@@ -4,7 +4,7 @@
 
 #include <span>
 
-#include "gigaray/ray_sampler.h"
+#include "gigaray/core/ray_sampler.h"
 #include "src/estimates.h"
 #include "src/strip_map.h"
 #include "src/workspace.h"
@@ -28,6 +28,11 @@ void coarsen_bounds(std::span<const PackedEstimate> estimates, std::span<const S
 void bound_thin_holes(RowRange rows, MapView<const std::uint8_t> todo,
                       MapView<const std::uint8_t> wide, MapView<const float> estimates,
                       const HypothesisRange& range, MapView<HypothesisBounds> bounds);
+
+/// The hypotheses from `low` to `high`, which may lie between them or beyond the range, and
+/// `margin` more on both sides.
+HypothesisBounds hypotheses_between(float low, float high, int margin,
+                                    const HypothesisRange& range);
 
 /// The hypotheses between the bounds of a search, one more on both sides.
 HypothesisBounds bounds_of(const Search& search, const HypothesisRange& range);

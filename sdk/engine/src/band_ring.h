@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "gigaray/error.h"
-#include "gigaray/ray_sampler.h"
+#include "gigaray/core/error.h"
+#include "gigaray/core/ray_sampler.h"
 
 namespace gigaray {
 

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "gigaray/error.h"
+#include "gigaray/core/error.h"
 
 namespace gigaray {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Gigaray authors
-#include "gigaray/calibration.h"
+#include "gigaray/engine/calibration.h"
 
 #include <array>
 #include <cmath>

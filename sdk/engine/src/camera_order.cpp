@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Gigaray authors
-#include "gigaray/camera_order.h"
+#include "gigaray/engine/camera_order.h"
 
 #include <algorithm>
 #include <array>
@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "disparity_range.h"
+#include "gigaray/core/arguments.h"
 #include "occlusion_votes.h"
 #include "settle_direction.h"
 
@@ -117,6 +118,7 @@ std::string percent(double share) {
 }  // namespace
 
 void doubt_positions(const LightField& light_field, const RunControl& control) {
+  check(light_field);
   if (light_field.kind != LightFieldKind::k4D) return;
   constexpr double kClearLead = 0.05;
   static constexpr std::array<const char*, 4> kTurns{
@@ -167,12 +169,14 @@ std::optional<SettledDirection> settle_direction(LightField& light_field,
                       ": views agree to " + percent(chosen.agreement()) +
                       ", in the next best order to " + percent(next) +
                       (unclear ? "; disparities have both signs and nothing tells near from far: "
-                                 "--direction states it"
+                                 "OpenOptions::direction states it"
                                : "");
   return settled;
 }
 
 std::optional<DisparityRange> check_direction(LightField& light_field, const RunControl& control) {
+  if (!light_field.sign_is_assumed) return std::nullopt;
+  check(light_field);
   const auto settled = settle_direction(light_field, control);
   if (!settled) return std::nullopt;
   if (!settled->message.empty()) control.message(settled->message);

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "gigaray/reconstruct.h"
+#include "gigaray/engine/reconstruct.h"
 #include "reconstruction_impl.h"
 #include "reference/search_bounds.h"
 #include "view_consensus.h"

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "gigaray/parallel.h"
+#include "gigaray/core/parallel.h"
 #include "stage_timer.h"
 
 namespace gigaray {

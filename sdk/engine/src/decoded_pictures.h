@@ -6,8 +6,8 @@
 #include <memory>
 #include <string>
 
-#include "gigaray/light_field.h"
-#include "gigaray/run_control.h"
+#include "gigaray/core/light_field.h"
+#include "gigaray/core/run_control.h"
 #include "memory_plan.h"
 #include "row_store.h"
 

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "edge_matches.h"
+#include "gigaray/core/arguments.h"
 #include "gigaray/samplers/any_sampler.h"
 
 namespace gigaray {
@@ -69,6 +70,16 @@ LightField central(const LightField& light_field) {
   return subset(light_field, central_views(light_field));
 }
 
+namespace {
+
+void check_rows_of_views(const LightField& light_field) {
+  check(light_field);
+  require_argument(light_field.kind != LightFieldKind::kUnstructured,
+                   "light_field: has cameras; disparities are those of 3D and 4D ones");
+}
+
+}  // namespace
+
 double measure_agreement(const LightField& light_field, const std::vector<int>& views,
                          SmallViews& small, const RunControl& control) {
   return mean_score(search_widely(subset(light_field, views), small.band(views, control), control,
@@ -77,6 +88,7 @@ double measure_agreement(const LightField& light_field, const std::vector<int>& 
 }
 
 double measure_agreement(const LightField& light_field, const RunControl& control) {
+  check_rows_of_views(light_field);
   std::vector<int> all(light_field.views.size());
   std::iota(all.begin(), all.end(), 0);
   SmallViews small(light_field);
@@ -84,6 +96,7 @@ double measure_agreement(const LightField& light_field, const RunControl& contro
 }
 
 RangeEstimate estimate_disparity_range(const LightField& light_field, const RunControl& control) {
+  check_rows_of_views(light_field);
   SmallViews small(light_field);
   return estimate_disparity_range(light_field, small, control);
 }
@@ -108,7 +121,7 @@ RangeEstimate estimate_disparity_range(const LightField& light_field, SmallViews
     throw Error(
         ErrorCode::kBadInput,
         "the disparity range can't be estimated: too little in the pictures matches; give it "
-        "with --disparity MIN MAX");
+        "with DepthOptions::disparity");
   std::sort(reliable.begin(), reliable.end());
   const auto percentile = [&](double p) {
     return double(reliable[std::size_t(p * double(reliable.size() - 1))]);

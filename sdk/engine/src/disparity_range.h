@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "gigaray/scene_estimates.h"
+#include "gigaray/engine/scene_estimates.h"
 #include "picture_bands.h"
 
 namespace gigaray {

@@ -7,8 +7,8 @@
 #include <optional>
 #include <vector>
 
-#include "gigaray/parallel.h"
-#include "gigaray/run_control.h"
+#include "gigaray/core/parallel.h"
+#include "gigaray/core/run_control.h"
 #include "reference/density_score.h"
 #include "reference/edge_confidence.h"
 

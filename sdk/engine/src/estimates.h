@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "gigaray/image.h"
-#include "gigaray/ray_sampler.h"
+#include "gigaray/core/image.h"
+#include "gigaray/core/ray_sampler.h"
 
 namespace gigaray {
 

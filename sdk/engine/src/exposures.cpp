@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Gigaray authors
-#include "gigaray/exposures.h"
+#include "gigaray/engine/exposures.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
@@ -10,7 +10,8 @@
 #include <utility>
 
 #include "edge_matches.h"
-#include "gigaray/parallel.h"
+#include "gigaray/core/arguments.h"
+#include "gigaray/core/parallel.h"
 #include "gigaray/samplers/unstructured_sampler.h"
 #include "noise_rows.h"
 #include "picture_bands.h"
@@ -188,6 +189,9 @@ class EvenedPixels : public PixelSource {
 }  // namespace
 
 std::vector<Exposure> estimate_exposures(const LightField& light_field, const RunControl& control) {
+  check(light_field);
+  require_argument(light_field.kind == LightFieldKind::kUnstructured,
+                   "light_field: exposures are estimated of photographs with cameras");
   constexpr int kMostPixels = 150;
   constexpr std::size_t kMostPartners = 3;
   const UnstructuredSampler all(light_field.cameras, light_field.most_partners);
@@ -231,6 +235,9 @@ bool differ(const std::vector<Exposure>& exposures) {
 }
 
 LightField evened(LightField light_field, std::vector<Exposure> exposures) {
+  require_argument(light_field.pixels != nullptr, "light_field.pixels: is null");
+  require_argument(exposures.size() == light_field.views.size(),
+                   "exposures: one for each view is needed");
   light_field.pixels = std::make_shared<EvenedPixels>(light_field.pixels, std::move(exposures));
   return light_field;
 }

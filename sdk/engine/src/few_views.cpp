@@ -7,7 +7,7 @@
 #include <limits>
 #include <optional>
 
-#include "gigaray/parallel.h"
+#include "gigaray/core/parallel.h"
 #include "gigaray/samplers/any_sampler.h"
 #include "noise_rows.h"
 

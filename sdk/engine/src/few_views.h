@@ -2,10 +2,10 @@
 // Copyright (c) 2026 The Gigaray authors
 #pragma once
 
-#include "gigaray/depth_options.h"
-#include "gigaray/light_field.h"
-#include "gigaray/run_control.h"
-#include "gigaray/scene_estimates.h"
+#include "gigaray/core/light_field.h"
+#include "gigaray/core/run_control.h"
+#include "gigaray/engine/depth_options.h"
+#include "gigaray/engine/scene_estimates.h"
 
 namespace gigaray {
 

@@ -5,8 +5,9 @@
 #include <limits>
 
 #include "edge_matches.h"
+#include "gigaray/core/arguments.h"
+#include "gigaray/engine/scene_estimates.h"
 #include "gigaray/samplers/any_sampler.h"
-#include "gigaray/scene_estimates.h"
 #include "picture_bands.h"
 
 namespace gigaray {
@@ -83,6 +84,9 @@ std::vector<Eigen::Vector3d> match_points(const LightField& light_field, int ref
 }  // namespace
 
 void estimate_inverse_depths(LightField& light_field, const RunControl& control, bool read_pixels) {
+  check(light_field);
+  require_argument(light_field.kind == LightFieldKind::kUnstructured,
+                   "light_field: has no cameras; inverse depths are those of unstructured ones");
   constexpr std::size_t kMostViewsMatched = 8, kLeastPoints = 30;
   std::vector<Camera>& cameras = light_field.cameras;
   std::vector<int> lacking;
@@ -109,7 +113,7 @@ void estimate_inverse_depths(LightField& light_field, const RunControl& control,
   if (points.size() < kLeastPoints)
     throw Error(ErrorCode::kBadInput,
                 "the range of depths can't be estimated: too little in the pictures matches; give "
-                "inverse depths with --disparity MIN MAX");
+                "inverse depths with DepthOptions::disparity");
   for (const int i : lacking) {
     std::vector<double> depths;
     for (const Eigen::Vector3d& point : points)

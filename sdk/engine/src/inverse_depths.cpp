@@ -6,8 +6,8 @@
 #include <cmath>
 #include <sstream>
 
+#include "gigaray/engine/scene_estimates.h"
 #include "gigaray/samplers/unstructured_sampler.h"
-#include "gigaray/scene_estimates.h"
 
 namespace gigaray {
 namespace {

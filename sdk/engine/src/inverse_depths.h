@@ -2,9 +2,9 @@
 // Copyright (c) 2026 The Gigaray authors
 #pragma once
 
-#include "gigaray/depth_options.h"
-#include "gigaray/light_field.h"
-#include "gigaray/run_control.h"
+#include "gigaray/core/light_field.h"
+#include "gigaray/core/run_control.h"
+#include "gigaray/engine/depth_options.h"
 
 namespace gigaray {
 

@@ -5,7 +5,7 @@
 #include <span>
 #include <utility>
 
-#include "gigaray/ray_sampler.h"
+#include "gigaray/core/ray_sampler.h"
 
 namespace gigaray {
 

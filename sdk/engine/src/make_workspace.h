@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "gigaray/ray_sampler.h"
+#include "gigaray/core/ray_sampler.h"
 #include "workspace.h"
 
 namespace gigaray {

@@ -8,11 +8,12 @@
 #include <optional>
 #include <utility>
 
+#include "coarse_guide.h"
 #include "finished_maps.h"
-#include "gigaray/memory_limit.h"
-#include "gigaray/parallel.h"
+#include "gigaray/core/memory_limit.h"
+#include "gigaray/core/parallel.h"
+#include "gigaray/core/scratch_file.h"
 #include "gigaray/samplers/any_sampler.h"
-#include "gigaray/scratch_file.h"
 #include "sweep.h"
 
 namespace gigaray {
@@ -31,8 +32,9 @@ constexpr double kDeviceShare = 0.9;
 constexpr int kSmallestLevel = 10;  // px
 /// Most for the scores of a strip, where its least number of rows takes less.
 constexpr double kLargestVolume = 1024 * kMiB;
-/// Rows of a strip, beside those that it keeps, that make all others' scores cheap.
-constexpr int kUsualRows = 6 * kScanlineBlock;
+/// Rows of a strip, beside those that it keeps, that make all others' scores cheap; with a guide
+/// scores are few.
+constexpr int kUsualRows = 6 * kScanlineBlock, kGuidedRows = 2 * kScanlineBlock;
 /// Most for a band in the host's memory, where a sweep's least window takes less: more rows at once
 /// gain little, since none is loaded twice.
 constexpr double kLargestBand = 1792 * kMiB;
@@ -111,6 +113,7 @@ class Planner {
         options_(options),
         device_(device),
         hypotheses_(hypotheses),
+        guided_(is_guided(light_field, options)),
         sampler_(make_sampler(light_field)),
         shapes_(level_shapes(light_field.width, light_field.height,
                              options.propagation.fine_to_coarse)),
@@ -130,10 +133,11 @@ class Planner {
 
   /// Bytes for the scores of a strip. Those of the first look are kept for the slanted one where
   /// memory allows: to score them again costs more than anything else. More rows at once than
-  /// `kUsualRows` gain nothing.
+  /// `usual_rows()` gain nothing.
   double usual_volume(double limit) const {
     const double memory = std::min(limit, device_memory());
-    const double most = std::min({rows_volume(kUsualRows), kLargestVolume, device_.largest_buffer});
+    const double most =
+        std::min({rows_volume(usual_rows()), kLargestVolume, device_.largest_buffer});
     return std::min(std::clamp(memory / 12, keeping_volume(), std::max(most, keeping_volume())),
                     all_rows_);
   }
@@ -145,7 +149,7 @@ class Planner {
 
   /// Whatever the bands are.
   double fixed_bytes(double volume) const {
-    return kProcessBytes + compiler_bytes() + options_.memory_beside + map_bytes() +
+    return kProcessBytes + compiler_bytes() + options_.memory_beside + guide_bytes() + map_bytes() +
            (device_.shares_host_memory ? device_.devices * score_bytes(volume) : 0);
   }
 
@@ -191,6 +195,13 @@ class Planner {
     return std::max(view_maps, std::min(4, num_threads()) * decoder_bytes());
   }
 
+  /// Maps of half the size.
+  double guide_bytes() const {
+    if (!guided_) return 0;
+    const double pixels = ((light_field_.width + 1) / 2) * ((light_field_.height + 1) / 2);
+    return active_ * pixels * FinishedMaps::kPixelBytes;
+  }
+
   /// While a picture is decoded.
   double decoder_bytes() const { return 12.0 * light_field_.width * light_field_.height; }
 
@@ -202,6 +213,7 @@ class Planner {
   /// Empty: it doesn't fit.
   std::optional<MemoryPlan> plan(double limit, double volume, Place place) const {
     MemoryPlan result;
+    result.guided = guided_;
     result.place = place;
     const bool in_files = place == Place::kFile, staged = place != Place::kDevice;
     const bool on_own = !staged && !device_.shares_host_memory;
@@ -230,7 +242,8 @@ class Planner {
       const LevelCost cost = cost_of(shape, light_field_, options_, active_, band_views_, staged);
       // One sweep loads every row once and holds what its stages lag; where that doesn't fit every
       // stage loads its own.
-      const int stage_lag = sweep_lag(sweep_stages(options_, shape.level, int(band_views_)));
+      const int stage_lag =
+          sweep_lag(sweep_stages(options_, shape.level, int(band_views_), guided_));
       const double moderate =
           std::max(kLargestBand, band_bytes(shape, cost, 2 * kScanlineBlock, stage_lag));
       level.band_rows =
@@ -302,6 +315,7 @@ class Planner {
   double rows_volume(int rows) const {
     return volume_row_bytes(light_field_.width, hypotheses_) * (score_lag(0) + rows);
   }
+  int usual_rows() const { return guided_ ? kGuidedRows : kUsualRows; }
   /// Volumes beside that of the scores as they come: with support, along scan-lines.
   int beside_scores(int level) const {
     return (options_.support.radius > 0) + (options_.support.scanline && level == 0);
@@ -371,7 +385,8 @@ class Planner {
     return band_rows >= shape.height ? shape.height : std::min(band_rows + lag, shape.height);
   }
   int score_lag(int level) const {
-    return gigaray::score_lag(sweep_stages(options_, level, int(band_views_)), options_.support);
+    return gigaray::score_lag(sweep_stages(options_, level, int(band_views_), guided_),
+                              options_.support);
   }
   double band_bytes(const LevelShape& shape, const LevelCost& cost, int band_rows, int lag) const {
     return loaded_rows(shape, band_rows, lag) * cost.band_row +
@@ -406,6 +421,7 @@ class Planner {
   const DepthOptions& options_;
   const DeviceLimits device_;
   const HypothesisRange hypotheses_;
+  const bool guided_;
   const AnySampler sampler_;
   const std::vector<LevelShape> shapes_;
   const double active_;          ///< views that get depth
@@ -453,10 +469,11 @@ MemoryPlan plan_memory(const LightField& light_field, const DepthOptions& option
         planner.plan(limit, planner.least_volume(), place);
   }
   if (!in_memory && !in_files && planner.least_limit() <= limit)
-    throw Error(ErrorCode::kOutOfMemory,
-                "the rays of one row reach so much of " + std::to_string(light_field.num_views()) +
-                    " views that it doesn't fit into one buffer of the device, or into its "
-                    "memory; compare fewer views (--partners) or smaller pictures (--max-size)");
+    throw Error(
+        ErrorCode::kOutOfMemory,
+        "the rays of one row reach so much of " + std::to_string(light_field.num_views()) +
+            " views that it doesn't fit into one buffer of the device, or into its "
+            "memory; compare fewer views (DepthOptions::most_partners) or smaller pictures");
   if (!in_memory && !in_files)
     throw Error(ErrorCode::kOutOfMemory,
                 "memory of " + std::to_string(int(limit / kMiB)) +
@@ -468,9 +485,10 @@ MemoryPlan plan_memory(const LightField& light_field, const DepthOptions& option
                                       std::max(kFewBands, kManyMore * in_files->forecast.bands));
   MemoryPlan chosen = keep ? *in_memory : *in_files;
   if (!keep)
-    chosen.work_folder = options.work_folder.empty()
-                             ? temporary_folder(" or name another folder by --work")
-                             : options.work_folder;
+    chosen.work_folder =
+        options.work_folder.empty()
+            ? temporary_folder(" or name another folder by DepthOptions::work_folder")
+            : options.work_folder;
   chosen.forecast.memory_all_bytes = planner.everything();
   return chosen;
 }

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "estimates.h"
-#include "gigaray/reconstruct.h"
+#include "gigaray/engine/reconstruct.h"
 #include "level_rows.h"
 
 namespace gigaray {
@@ -27,6 +27,7 @@ struct LevelPlan {
 /// How a run fits into the memory it may take.
 struct MemoryPlan {
   std::vector<LevelPlan> levels;
+  bool guided = false;  ///< Level 0 is searched where half the size tells (coarse_guide.h).
   Place place = Place::kDevice;  ///< Where rows are stored.
   std::string work_folder;       ///< of files; else empty
   Forecast forecast;

@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "gigaray/parallel.h"
-#include "gigaray/scene_estimates.h"
+#include "gigaray/core/arguments.h"
+#include "gigaray/core/parallel.h"
+#include "gigaray/engine/scene_estimates.h"
 #include "noise_rows.h"
 
 namespace gigaray {
@@ -179,6 +180,10 @@ std::vector<int> views_to_measure(const LightField& light_field) {
 
 NoiseEstimate estimate_noise(const LightField& light_field, const HypothesisRange& hypotheses,
                              const RunControl& control) {
+  check(light_field);
+  require_argument(std::isfinite(hypotheses.min) && hypotheses.min < hypotheses.max &&
+                       std::isfinite(hypotheses.max) && hypotheses.count >= 2,
+                   "hypotheses: two or more of a range of finite numbers are needed");
   constexpr int kMostRows = 16;
   const bool is_posed = light_field.kind == LightFieldKind::kUnstructured;
   const int centre = centre_view(light_field);

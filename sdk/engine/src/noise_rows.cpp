@@ -2,7 +2,7 @@
 // Copyright (c) 2026 The Gigaray authors
 #include "noise_rows.h"
 
-#include "gigaray/parallel.h"
+#include "gigaray/core/parallel.h"
 #include "picture_bands.h"
 
 namespace gigaray {

@@ -7,9 +7,9 @@
 #include <optional>
 #include <vector>
 
-#include "gigaray/light_field.h"
-#include "gigaray/ray_sampler.h"
-#include "gigaray/run_control.h"
+#include "gigaray/core/light_field.h"
+#include "gigaray/core/ray_sampler.h"
+#include "gigaray/core/run_control.h"
 #include "gigaray/samplers/any_sampler.h"
 #include "reference/band.h"
 

@@ -8,7 +8,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "gigaray/parallel.h"
+#include "gigaray/core/parallel.h"
 #include "picture_bands.h"
 
 namespace gigaray {

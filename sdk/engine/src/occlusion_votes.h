@@ -2,9 +2,9 @@
 // Copyright (c) 2026 The Gigaray authors
 #pragma once
 
-#include "gigaray/light_field.h"
-#include "gigaray/run_control.h"
-#include "gigaray/scene_estimates.h"
+#include "gigaray/core/light_field.h"
+#include "gigaray/core/run_control.h"
+#include "gigaray/engine/scene_estimates.h"
 
 namespace gigaray {
 

@@ -68,8 +68,8 @@ std::vector<std::vector<PartitionRows>> partition_rows(
       std::visit(
           [&](const auto& s) {
             for (const int ref : refs) {
-              const auto stages =
-                  sweep_stages(options, level.shape.level, int(s.partners(ref).size()));
+              const auto stages = sweep_stages(options, level.shape.level,
+                                               int(s.partners(ref).size()), plan.guided);
               rows.swept = hull(rows.swept, rows_of_stages(stages, rows.own, height).front());
             }
           },

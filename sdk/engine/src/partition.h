@@ -6,8 +6,8 @@
 #include <functional>
 #include <vector>
 
-#include "gigaray/depth_options.h"
-#include "gigaray/ray_sampler.h"
+#include "gigaray/core/ray_sampler.h"
+#include "gigaray/engine/depth_options.h"
 #include "gigaray/samplers/any_sampler.h"
 #include "memory_plan.h"
 

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "gigaray/parallel.h"
+#include "gigaray/core/parallel.h"
 #include "reference/downsample.h"
 #include "reference/unpack_channels.h"
 

@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "gigaray/light_field.h"
-#include "gigaray/run_control.h"
+#include "gigaray/core/light_field.h"
+#include "gigaray/core/run_control.h"
 #include "reference/band.h"
 
 namespace gigaray {

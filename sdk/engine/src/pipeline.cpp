@@ -17,6 +17,7 @@ Pipeline::Pipeline(const Run& run, const std::vector<std::vector<PartitionRows>>
       hypotheses_(run.hypotheses),
       plan_(run.plan),
       control_(run.control),
+      guide_(run.guide),
       rows_(rows),
       pictures_(std::move(pictures)),
       workspace_(workspace),

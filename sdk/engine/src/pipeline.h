@@ -175,6 +175,7 @@ class Pipeline {
   const HypothesisRange hypotheses_;
   const MemoryPlan& plan_;
   const RunControl& control_;
+  const CoarseGuide* guide_;
   const std::vector<std::vector<PartitionRows>>& rows_;
   DecodedPictures pictures_;
   Workspace& workspace_;

@@ -34,7 +34,7 @@ bool sees_means(SweepStep step) {
 void Pipeline::sweep(int active_idx) {
   const int view = active_[active_idx];
   const LevelPlan& plan = plan_.levels[level_];
-  stages_ = sweep_stages(options_, level_, int(partners_[view].size()));
+  stages_ = sweep_stages(options_, level_, int(partners_[view].size()), guide_ != nullptr);
   stage_rows_ = rows_of_stages(stages_, rows().own, shape().height);
   progress_of_stages_.clear();
   for (const RowRange rows : stage_rows_) progress_of_stages_.push_back(rows.begin);
@@ -234,7 +234,8 @@ void Pipeline::look(int view, SweepStep step, RowRange rows) {
   } else {
     score_anew(view, scored, views, score_todo, score_bounds);
   }
-  support(view, supported, of_view_.todo, step != SweepStep::kLook);
+  const bool along_slopes = step != SweepStep::kLook || (level_ == 0 && guide_);
+  support(view, supported, of_view_.todo, along_slopes);
   if (scanline) {
     workspace_.begin_stage("scanline");
     workspace_.scanline(view, rows, of_view_.todo);

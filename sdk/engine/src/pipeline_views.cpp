@@ -63,6 +63,10 @@ bool Pipeline::find_todo(int active_idx) {
   const ShownRows shown = open_shown(all, {active_[active_idx]}, at);
   workspace_.select_todo(all, maps.disparity, mask, shown, at.front(), search, maps.todo,
                          maps.bounds);
+  if (level_ == 0 && guide_) {
+    workspace_.put(guide_->bounds(active_idx, shape().width, all, hypotheses_), maps.bounds);
+    workspace_.put(guide_->hypotheses(active_idx, shape().width, all), maps.smooth);
+  }
   if (cracked)
     workspace_.bound_thin_holes(all, maps.todo, opened(kThinHole, maps.todo), maps.disparity,
                                 maps.bounds);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Gigaray authors
-#include "gigaray/reconstruct.h"
+#include "gigaray/engine/reconstruct.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,14 +8,16 @@
 #include <span>
 #include <sstream>
 
+#include "coarse_guide.h"
 #include "few_views.h"
-#include "gigaray/device.h"
-#include "gigaray/estimator.h"
-#include "gigaray/exposures.h"
-#include "gigaray/jpeg_blocks.h"
-#include "gigaray/kept_pictures.h"
-#include "gigaray/scene_estimates.h"
-#include "gigaray/smoothing.h"
+#include "gigaray/core/arguments.h"
+#include "gigaray/core/jpeg_blocks.h"
+#include "gigaray/core/kept_pictures.h"
+#include "gigaray/core/smoothing.h"
+#include "gigaray/engine/device.h"
+#include "gigaray/engine/estimator.h"
+#include "gigaray/engine/exposures.h"
+#include "gigaray/engine/scene_estimates.h"
 #include "inverse_depths.h"
 #include "make_workspace.h"
 #include "opencl/cache_folder.h"
@@ -70,6 +72,13 @@ LightField kept_and_cleaned(const LightField& light_field, const DepthOptions& o
   return keep(cleaned);
 }
 
+/// Most that kept_and_cleaned() holds of them.
+double kept_picture_bytes(const LightField& light_field, const DepthOptions& options) {
+  const double all = 3.0 * light_field.pixels->bit_depth() / 8 * light_field.width *
+                     light_field.height * light_field.num_views();
+  return std::min(all, KeptPictures::most_bytes(options.memory_bytes));
+}
+
 struct Prepared {
   LightField light_field;  ///< as the engine gets to see it
   DepthOptions options;
@@ -119,7 +128,7 @@ void require_direction(LightField& light_field, DepthOptions& options, const Run
   if (!settled->is_clear)
     throw Error(ErrorCode::kInvalidArgument,
                 "which way the camera goes is only assumed, and disparities of both signs don't "
-                "tell: state it with OpenOptions::direction (--direction), or take the assumption "
+                "tell: state OpenOptions::direction, or take the assumption "
                 "by sign_is_assumed = false");
   if (!settled->message.empty()) control.message(settled->message);
   if (options.disparity) return;
@@ -319,15 +328,39 @@ Reconstruction reconstruct(const LightField& light_field, const DepthOptions& op
 
 Reconstruction Estimator::reconstruct(const LightField& light_field, const DepthOptions& options,
                                       const RunControl& control) const {
-  return control.stop_or_fail([&] { return compute(light_field, options, control); });
+  return control.stop_or_fail([&] {
+    return with_memory_errors("depth", [&] { return compute(light_field, options, control); });
+  });
 }
 
 Reconstruction Estimator::compute(const LightField& light_field, const DepthOptions& options,
                                   const RunControl& control) const {
+  return Reconstruction(run(light_field, options, control));
+}
+
+CoarseGuide Estimator::find_guide(const LightField& seen, const DepthOptions& options,
+                                  const RunControl& control) const {
+  DepthOptions coarse = options;
+  coarse.disparity.reset();  // every camera has its own
+  if (coarse.hypotheses > 0) coarse.hypotheses = std::max(coarse.hypotheses / 2, 2);
+  coarse.score.remove_jpeg_blocks = false;
+  coarse.score.even_exposures = false;
+  coarse.keep_searches = false;
+  coarse.memory_beside += kept_picture_bytes(seen, options);
+  const LightField half = halved(seen);
+  const RunControl part(control, std::to_string(half.width) + "x" + std::to_string(half.height));
+  auto found = run(half, coarse, part);
+  return CoarseGuide(std::move(found->maps));
+}
+
+std::unique_ptr<Reconstruction::Impl> Estimator::run(const LightField& light_field,
+                                                     const DepthOptions& options,
+                                                     const RunControl& control) const {
   auto impl = std::make_unique<Reconstruction::Impl>();
   LightField seen;
   std::vector<std::string> jobs;  ///< before and after the pictures were looked at
   std::vector<std::unique_ptr<Workspace>> workspaces;
+  std::optional<CoarseGuide> guide;
   {
     const StageTimer timer(impl->seconds, "prepare");
     check(light_field);
@@ -357,6 +390,7 @@ Reconstruction Estimator::compute(const LightField& light_field, const DepthOpti
     }
     seen = run.light_field;
     impl->options = run.options;
+    if (impl->plan.guided) guide = find_guide(seen, wanted, control);
     impl->hypotheses = run.hypotheses;
     impl->cameras = seen.cameras;
     impl->sampler = make_sampler(seen);
@@ -366,8 +400,9 @@ Reconstruction Estimator::compute(const LightField& light_field, const DepthOpti
   for (const auto& workspace : workspaces)
     impl->device += impl->device.empty() ? workspace->name() + ": " + workspace->description()
                                          : "; " + workspace->description();
-  RunResult result =
-      run_pipeline({seen, impl->options, impl->hypotheses, impl->plan, control}, workspaces);
+  RunResult result = run_pipeline(
+      {seen, impl->options, impl->hypotheses, impl->plan, control, guide ? &*guide : nullptr},
+      workspaces);
   for (const std::string& job : jobs) opencl::note_ready_kernels(job);
   workspaces.clear();
   impl->maps = std::move(result.maps);
@@ -384,22 +419,26 @@ Reconstruction Estimator::compute(const LightField& light_field, const DepthOpti
                                 impl->hypotheses.step(), impl->plan.work_folder, control);
     impl->agreed = true;
   }
-  return Reconstruction(std::move(impl));
+  return impl;
 }
 
 Forecast forecast(const LightField& light_field, const DepthOptions& options,
                   const BackendChoice& backend) {
-  const Prepared run =
-      prepare(kept_and_cleaned(light_field, options, RunControl{}), options, RunControl{});
-  if (backend.backend == "reference") return plan_run(run, std::nullopt, kHost).forecast;
-  const std::string devices = opencl::stated_device(backend.device);
-  return plan_run(run, joined(devices), limits_of(devices)).forecast;
+  return with_memory_errors("a forecast", [&] {
+    const Prepared run =
+        prepare(kept_and_cleaned(light_field, options, RunControl{}), options, RunControl{});
+    if (backend.backend == "reference") return plan_run(run, std::nullopt, kHost).forecast;
+    const std::string devices = opencl::stated_device(backend.device);
+    return plan_run(run, joined(devices), limits_of(devices)).forecast;
+  });
 }
 
 double least_memory_bytes(const LightField& light_field, const DepthOptions& options) {
-  const Prepared run =
-      prepare(kept_and_cleaned(light_field, options, RunControl{}), options, RunControl{});
-  return least_memory_limit(run.light_field, widest(run.options), run.hypotheses, limits_of(""));
+  return with_memory_errors("a forecast", [&] {
+    const Prepared run =
+        prepare(kept_and_cleaned(light_field, options, RunControl{}), options, RunControl{});
+    return least_memory_limit(run.light_field, widest(run.options), run.hypotheses, limits_of(""));
+  });
 }
 
 ScoreCurve probe(const LightField& light_field, const DepthOptions& options,
@@ -413,8 +452,11 @@ ScoreCurve probe(const LightField& light_field, const DepthOptions& options,
 
 ScoreCurve Estimator::probe(const LightField& light_field, const DepthOptions& options,
                             int view_idx, int u, int v, const RunControl& control) const {
-  return control.stop_or_fail(
-      [&] { return compute_curve(light_field, options, view_idx, u, v, control); });
+  return control.stop_or_fail([&] {
+    return with_memory_errors("the scores of a pixel", [&] {
+      return compute_curve(light_field, options, view_idx, u, v, control);
+    });
+  });
 }
 
 ScoreCurve Estimator::compute_curve(const LightField& light_field, const DepthOptions& options,

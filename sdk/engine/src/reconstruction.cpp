@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Gigaray authors
-#include "gigaray/reconstruct.h"
+#include "gigaray/engine/reconstruct.h"
 
 #include <algorithm>
 #include <limits>
 
-#include "gigaray/calibration.h"
-#include "gigaray/parallel.h"
+#include "gigaray/core/arguments.h"
+#include "gigaray/core/parallel.h"
+#include "gigaray/engine/calibration.h"
 #include "reconstruction_impl.h"
 #include "reference/bilateral_median.h"
 
@@ -87,6 +88,9 @@ ViewDepth Reconstruction::view(int view_idx) const {
 }
 
 void drop_unsure(float min_confidence, ViewDepth& depth) {
+  require_argument(depth.confidence.width() == depth.disparity.width() &&
+                       depth.confidence.height() == depth.disparity.height(),
+                   "depth.confidence: must be as large as the disparity");
   for (int v = 0; v < depth.disparity.height(); ++v)
     for (int u = 0; u < depth.disparity.width(); ++u)
       if (!(depth.confidence(u, v) >= min_confidence)) depth.disparity(u, v) = kNoEstimate;

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "finished_maps.h"
-#include "gigaray/reconstruct.h"
+#include "gigaray/engine/reconstruct.h"
 #include "gigaray/samplers/any_sampler.h"
 #include "memory_plan.h"
 #include "tuple_store.h"

@@ -6,7 +6,7 @@
 #include <cstring>
 #include <new>
 
-#include "gigaray/error.h"
+#include "gigaray/core/error.h"
 
 namespace gigaray {
 

@@ -7,7 +7,7 @@
 #include <span>
 #include <string>
 
-#include "gigaray/scratch_file.h"
+#include "gigaray/core/scratch_file.h"
 
 namespace gigaray {
 

@@ -7,11 +7,12 @@
 #include <string>
 #include <vector>
 
+#include "coarse_guide.h"
 #include "finished_maps.h"
-#include "gigaray/depth_options.h"
-#include "gigaray/light_field.h"
-#include "gigaray/ray_sampler.h"
-#include "gigaray/run_control.h"
+#include "gigaray/core/light_field.h"
+#include "gigaray/core/ray_sampler.h"
+#include "gigaray/core/run_control.h"
+#include "gigaray/engine/depth_options.h"
 #include "memory_plan.h"
 #include "tuple_store.h"
 #include "workspace.h"
@@ -25,6 +26,7 @@ struct Run {
   HypothesisRange hypotheses;
   const MemoryPlan& plan;
   const RunControl& control;
+  const CoarseGuide* guide = nullptr;  ///< null: everything is searched in the whole range
 };
 
 /// What it leaves.

@@ -6,7 +6,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "gigaray/image.h"
+#include "gigaray/core/image.h"
 
 namespace gigaray {
 

@@ -15,7 +15,8 @@ constexpr int kManyViews = 160;
 
 }  // namespace
 
-std::vector<SweepStage> sweep_stages(const DepthOptions& options, int level, int partners) {
+std::vector<SweepStage> sweep_stages(const DepthOptions& options, int level, int partners,
+                                     bool guided) {
   const SupportOptions& support = options.support;
   const int median = options.winner.median_radius;
   // Coarser levels have too few pixels, and test too few hypotheses, for more than one look.
@@ -25,13 +26,22 @@ std::vector<SweepStage> sweep_stages(const DepthOptions& options, int level, int
   // Nearly all of it is scores: of all views, of some, or beside jumps.
   const double look_cost = again && few_first(options, partners) ? 3 : 5, last_cost = 5;
   const double slanted_cost = 2.5, behind_cost = 1;
-  std::vector<SweepStage> stages{{SweepStep::kLook, 0, multiple, look_cost}};
+  // Its lag keeps what smooths again away from what the slopes before still look at.
+  const int slanted_reach = std::max(looks_at, kSlopeReach + 1);
+  std::vector<SweepStage> stages;
+  if (again && guided) {
+    stages = {{SweepStep::kSlopes, 0, 1},
+              {SweepStep::kLook, slanted_reach, multiple, look_cost},
+              {SweepStep::kSmooth, median, 1}};
+  } else {
+    stages = {{SweepStep::kLook, 0, multiple, look_cost}};
+    if (again) {
+      stages.push_back({SweepStep::kSmooth, median, 1});
+      stages.push_back({SweepStep::kSlopes, kSlopeReach, 1});
+      stages.push_back({SweepStep::kSlantedLook, slanted_reach, multiple, slanted_cost});
+    }
+  }
   if (again) {
-    stages.push_back({SweepStep::kSmooth, median, 1});
-    stages.push_back({SweepStep::kSlopes, kSlopeReach, 1});
-    // Its lag keeps what smooths again away from what the slopes before still look at.
-    stages.push_back(
-        {SweepStep::kSlantedLook, std::max(looks_at, kSlopeReach + 1), multiple, slanted_cost});
     // Where the last look has to score anew anyway, or takes very many views, a few do for the
     // first.
     if (few_first(options, partners)) {
@@ -97,11 +107,12 @@ int sweep_lag(const std::vector<SweepStage>& stages) {
 }
 
 int score_lag(const std::vector<SweepStage>& stages, const SupportOptions& support) {
+  const int reach = 2 * ((support.scanline ? kScanlineReach : 0) + support.radius);
+  if (stages.front().step == SweepStep::kSlopes) return reach;
   int lag = 0;
   for (const SweepStage& stage : stages) {
     if (stage.step != SweepStep::kLook) lag += stage.reach + stage.multiple - 1;
-    if (stage.step == SweepStep::kSlantedLook)
-      return lag + 2 * ((support.scanline ? kScanlineReach : 0) + support.radius);
+    if (stage.step == SweepStep::kSlantedLook) return lag + reach;
   }
   return 0;
 }

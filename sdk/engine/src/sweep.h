@@ -5,14 +5,14 @@
 #include <vector>
 
 #include "estimates.h"
-#include "gigaray/depth_options.h"
-#include "gigaray/image.h"
+#include "gigaray/core/image.h"
+#include "gigaray/engine/depth_options.h"
 
 namespace gigaray {
 
 /// What is done with a view, in this order.
 enum class SweepStep {
-  kLook,         ///< scores, support, winners
+  kLook,         ///< scores, support, winners; along slopes where those are known before
   kSmooth,       ///< median of the winners
   kSlopes,       ///< of what is smooth
   kSlantedLook,  ///< support along the slopes, of the same scores
@@ -48,8 +48,9 @@ inline constexpr int kBesideJump = 10;
 /// Does a first look take few views only? partners: how many views a view is compared with.
 bool few_first(const DepthOptions& options, int partners);
 
-/// The steps of a view.
-std::vector<SweepStage> sweep_stages(const DepthOptions& options, int level, int partners);
+/// The steps of a view. guided: slopes are known before (coarse_guide.h).
+std::vector<SweepStage> sweep_stages(const DepthOptions& options, int level, int partners,
+                                     bool guided);
 
 /// Rows that each stage does so that the last one can do `own`, in a level of so many rows.
 std::vector<RowRange> rows_of_stages(const std::vector<SweepStage>& stages, RowRange own,
@@ -59,7 +60,8 @@ std::vector<RowRange> rows_of_stages(const std::vector<SweepStage>& stages, RowR
 int sweep_lag(const std::vector<SweepStage>& stages);
 
 /// Rows from what the slanted look has done to what the first look has scored, beside those of a
-/// strip; 0 where no scores are looked at twice.
+/// strip; where slopes are known before, those that two strips both look at; 0 where no scores are
+/// looked at twice.
 int score_lag(const std::vector<SweepStage>& stages, const SupportOptions& support);
 
 }  // namespace gigaray

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "gigaray/reconstruct.h"
-#include "gigaray/scratch_file.h"
+#include "gigaray/core/scratch_file.h"
+#include "gigaray/engine/reconstruct.h"
 
 namespace gigaray {
 

@@ -9,8 +9,8 @@
 #include <optional>
 #include <utility>
 
-#include "gigaray/calibration.h"
-#include "gigaray/parallel.h"
+#include "gigaray/core/parallel.h"
+#include "gigaray/engine/calibration.h"
 
 namespace gigaray {
 namespace {

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "finished_maps.h"
-#include "gigaray/ray_sampler.h"
-#include "gigaray/run_control.h"
+#include "gigaray/core/ray_sampler.h"
+#include "gigaray/core/run_control.h"
 #include "gigaray/samplers/unstructured_sampler.h"
 
 namespace gigaray {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Gigaray authors
-#include "gigaray/view_layout.h"
+#include "gigaray/engine/view_layout.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,8 @@
 #include <memory>
 #include <mutex>
 
-#include "gigaray/scene_estimates.h"
+#include "gigaray/core/arguments.h"
+#include "gigaray/engine/scene_estimates.h"
 
 namespace gigaray {
 namespace {
@@ -84,7 +85,11 @@ class Trials {
  public:
   Trials(const LightField& light_field, const std::vector<int>& cells, const RunControl& control)
       : light_field_(light_field), cells_(cells), control_(control) {
-    GIGARAY_CHECK(cells.size() == light_field.views.size());
+    check(light_field);
+    require_argument(std::ranges::all_of(cells, [](int cell) { return cell >= 0; }),
+                     "cells: must be 0 or more");
+    require_argument(cells.size() == light_field.views.size(),
+                     "cells: one for each view is needed");
     const auto pictures = std::make_shared<SmallPictures>(light_field);
     light_field_.width = pictures->width();
     light_field_.height = pictures->height();
@@ -145,6 +150,7 @@ class Trials {
 
 std::vector<LayoutTrial> try_layouts(const LightField& light_field, const std::vector<int>& cells,
                                      int num_cells, const RunControl& control) {
+  require_argument(num_cells >= 1, "num_cells: must be 1 or more");
   constexpr int kFewCells = 16;
   const Trials trials(light_field, cells, control);
   const int least = num_cells <= kFewCells ? 2 : 3;
@@ -165,6 +171,7 @@ std::vector<LayoutTrial> try_layouts(const LightField& light_field, const std::v
 
 LayoutTrial try_layout(const LightField& light_field, const std::vector<int>& cells,
                        const ViewLayout& layout, const RunControl& control) {
+  require_argument(layout.rows >= 1 && layout.columns >= 1, "layout: must have a row and a column");
   return Trials(light_field, cells, control).run(layout);
 }
 

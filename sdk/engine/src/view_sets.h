@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "gigaray/ray_sampler.h"
+#include "gigaray/core/ray_sampler.h"
 #include "src/workspace.h"
 
 namespace gigaray {

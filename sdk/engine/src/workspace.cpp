@@ -2,7 +2,7 @@
 // Copyright (c) 2026 The Gigaray authors
 #include "workspace.h"
 
-#include "gigaray/srgb.h"
+#include "gigaray/core/srgb.h"
 #include "make_workspace.h"
 
 namespace gigaray {

@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "estimates.h"
-#include "gigaray/depth_options.h"
-#include "gigaray/ray_sampler.h"
-#include "gigaray/reconstruct.h"
+#include "gigaray/core/ray_sampler.h"
+#include "gigaray/engine/depth_options.h"
+#include "gigaray/engine/reconstruct.h"
 #include "map.h"
 
 namespace gigaray {

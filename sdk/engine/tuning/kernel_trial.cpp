@@ -7,7 +7,7 @@
 #include <span>
 #include <utility>
 
-#include "gigaray/synthetic.h"
+#include "gigaray/core/synthetic.h"
 
 namespace gigaray {
 namespace {

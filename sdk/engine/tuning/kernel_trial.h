@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "gigaray/device.h"
+#include "gigaray/engine/device.h"
 #include "gigaray/samplers/any_sampler.h"
 #include "opencl/opencl_workspace.h"
 

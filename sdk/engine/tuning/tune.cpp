@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Gigaray authors
-#include "gigaray/tune.h"
+#include "gigaray/engine/tune.h"
 
 #include <algorithm>
 #include <chrono>
 #include <memory>
 
-#include "gigaray/device.h"
+#include "gigaray/engine/device.h"
 #include "opencl/tuning.h"
 #include "tuning/kernel_trial.h"
 

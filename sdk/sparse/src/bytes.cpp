@@ -7,8 +7,8 @@
 #include <memory>
 #include <new>
 
-#include "gigaray/error.h"
-#include "gigaray/sparse_coding.h"
+#include "gigaray/core/error.h"
+#include "gigaray/sparse/sparse_coding.h"
 
 namespace gigaray {
 namespace {

@@ -4,7 +4,8 @@
 #include <cmath>
 #include <tuple>
 
-#include "gigaray/parallel.h"
+#include "gigaray/core/arguments.h"
+#include "gigaray/core/parallel.h"
 #include "tuple_ray.h"
 
 namespace gigaray {
@@ -84,7 +85,8 @@ class TupleChoice {
   void add_unexplained(int view) {
     const DrawnView seen = draw(view);
     const FloatMap disparity = disparity_(view);
-    GIGARAY_CHECK(disparity.width() == shape_.width && disparity.height() == shape_.height);
+    require_argument(disparity.width() == shape_.width && disparity.height() == shape_.height,
+                     "disparity: must be as large as the pictures");
     for_each_band([&](int index) {
       TupleBand& band = tuples_[index];
       for (int v = shape_.band(index).begin; v < shape_.band(index).end; ++v)
@@ -166,6 +168,14 @@ class TupleChoice {
 SparseTuples choose_tuples(const LightField& light_field, const SparseShape& shape,
                            const DisparityOfView& disparity, const SparseOptions& options,
                            const RunControl& control) {
+  check(light_field);
+  require_argument(bool(disparity), "disparity: is empty");
+  require_argument(shape.band_rows >= 1 && shape.width == light_field.width &&
+                       shape.height == light_field.height &&
+                       shape.positions.size() == light_field.views.size(),
+                   "shape: is of another light field");
+  require_argument(options.tolerance > 0 && options.colour_rounds >= 0,
+                   "options: tolerance must be above 0, colour_rounds 0 or more");
   return TupleChoice(light_field, shape, disparity, options, control).run();
 }
 

@@ -10,7 +10,8 @@
 
 #include "bytes.h"
 #include "difference_planes.h"
-#include "gigaray/sparse_coding.h"
+#include "gigaray/core/arguments.h"
+#include "gigaray/sparse/sparse_coding.h"
 #include "range_coder.h"
 
 namespace gigaray {
@@ -67,7 +68,11 @@ std::int32_t quantised(std::int32_t miss, int max_error) {
 
 std::string encode_difference(const Image<std::uint16_t>& picture,
                               const Image<std::uint16_t>& drawn, int bit_depth, int max_error) {
-  GIGARAY_CHECK(picture.width() == drawn.width() && picture.height() == drawn.height());
+  require_argument(picture.width() == drawn.width() && picture.height() == drawn.height() &&
+                       picture.channels() == kChannels && drawn.channels() == kChannels,
+                   "picture, drawn: must be of one size, with three channels");
+  require_argument(bit_depth >= 1 && bit_depth <= 16 && max_error >= 0,
+                   "bit_depth, max_error: must be 1 … 16, and 0 or more");
   const int width = picture.width(), height = picture.height();
   const std::int32_t most = (1 << bit_depth) - 1;
   DifferencePlanes planes(drawn, bit_depth);
@@ -111,6 +116,8 @@ bool may_hold_difference(std::uint64_t bytes, double pixels) {
 
 Image<std::uint16_t> decode_difference(std::string_view bytes, const Image<std::uint16_t>& drawn,
                                        int bit_depth) {
+  require_argument(drawn.channels() == kChannels && bit_depth >= 1 && bit_depth <= 16,
+                   "drawn, bit_depth: three channels, 1 … 16 bits are needed");
   if (!may_hold_difference(bytes.size(), double(drawn.width()) * drawn.height()))
     damaged("its differences end too early");
   const int width = drawn.width(), height = drawn.height();

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "gigaray/image.h"
+#include "gigaray/core/image.h"
 
 namespace gigaray {
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "gigaray/core/arguments.h"
 #include "tuple_ray.h"
 
 namespace gigaray {
@@ -18,6 +19,15 @@ constexpr double kFarthest = 1 << 14;  // view steps
 struct Reach {
   std::int64_t least, most;
 };
+
+void check_rows(const SparseShape& shape, const SparseTuples& tuples, int view, RowRange rows) {
+  require_argument(shape.band_rows >= 1 && tuples.size() == std::size_t(shape.num_bands()),
+                   "tuples: a band of them for each band of the shape is needed");
+  require_argument(view >= 0 && std::size_t(view) < shape.positions.size(),
+                   "view: the shape has no such view");
+  require_argument(rows.begin >= 0 && rows.begin <= rows.end && rows.end <= shape.height,
+                   "rows: must be rows of the picture");
+}
 
 Reach reach_of(const SparseShape& shape, const TupleBand& band, std::int64_t way) {
   const auto at = [&](std::int32_t slope) { return fixed_shift(way, slope, shape.slope_bits); };
@@ -56,6 +66,11 @@ std::int32_t SparseShape::slope(double disparity) const {
 }
 
 SparseShape sparse_shape(const LightField& light_field, int bit_depth, int band_rows) {
+  require_argument(bit_depth >= 1 && bit_depth <= 16, "bit_depth: must be between 1 and 16");
+  require_argument(band_rows >= 1, "band_rows: must be 1 or more");
+  require_argument(
+      light_field.width >= 1 && light_field.height >= 1 && light_field.num_views() >= 2,
+      "light_field: two views or more with pixels are needed");
   if (light_field.kind == LightFieldKind::kUnstructured)
     throw Error(ErrorCode::kInvalidArgument,
                 "a sparse light field holds 3D and 4D light fields, not photographs from anywhere");
@@ -87,6 +102,7 @@ SparseShape sparse_shape(const LightField& light_field, int bit_depth, int band_
 
 std::vector<int> bands_reaching(const SparseShape& shape, const SparseTuples& tuples, int view,
                                 RowRange rows) {
+  check_rows(shape, tuples, view, rows);
   std::vector<int> bands;
   for (int i = 0; i < shape.num_bands(); ++i) {
     if (tuples[i].least_slope > tuples[i].largest_slope) continue;
@@ -103,6 +119,7 @@ std::vector<int> bands_reaching(const SparseShape& shape, const SparseTuples& tu
 
 DrawnRows draw_tuples(const SparseShape& shape, const SparseTuples& tuples, int view,
                       RowRange rows) {
+  check_rows(shape, tuples, view, rows);
   DrawnRows drawn{rows, Image<std::int32_t>(shape.width, rows.size(), 1, DrawnRows::kNone),
                   Image<std::uint16_t>(shape.width, rows.size(), 3)};
   const std::vector<int> bands = bands_reaching(shape, tuples, view, rows);

@@ -5,16 +5,23 @@
 #include <algorithm>
 
 #include "bytes.h"
-#include "gigaray/sparse_coding.h"
+#include "gigaray/core/arguments.h"
+#include "gigaray/sparse/sparse_coding.h"
 
 namespace gigaray {
 namespace {
 
 enum Column { kSlope, kView, kRow, kPlace, kRed, kGreen, kBlue, kColumns };
 
+void check_band(const SparseShape& shape, int band) {
+  require_argument(shape.band_rows >= 1 && band >= 0 && band < shape.num_bands(),
+                   "band: the shape has no such band");
+}
+
 }  // namespace
 
 std::string encode_tuples(const SparseShape& shape, int band, const TupleBand& tuples) {
+  check_band(shape, band);
   ByteWriter columns[kColumns];
   SparseTuple last;
   last.v = shape.band(band).begin;
@@ -41,6 +48,7 @@ std::string encode_tuples(const SparseShape& shape, int band, const TupleBand& t
 
 TupleBand decode_tuples(const SparseShape& shape, int band, std::string_view bytes,
                         double memory_bytes) {
+  check_band(shape, band);
   const RowRange rows = shape.band(band);
   ByteReader in(bytes);
   const std::size_t most = std::size_t(rows.size()) * shape.width * shape.positions.size();

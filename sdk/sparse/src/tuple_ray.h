@@ -2,7 +2,7 @@
 // Copyright (c) 2026 The Gigaray authors
 #pragma once
 
-#include "gigaray/sparse_light_field.h"
+#include "gigaray/sparse/sparse_light_field.h"
 
 namespace gigaray {
 

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "gigaray/adapters/sparse_file.h"
-#include "gigaray/reconstruct.h"
-#include "gigaray/segmentation.h"
+#include "gigaray/applications/segmentation.h"
+#include "gigaray/engine/reconstruct.h"
 
 namespace {
 

@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-#include "gigaray/run_control.h"
+#include "gigaray/core/run_control.h"
 
 namespace gigaray {
 

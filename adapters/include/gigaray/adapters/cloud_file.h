@@ -7,7 +7,7 @@
 #include <string>
 
 #include "gigaray/adapters/atomic_output.h"
-#include "gigaray/point_cloud.h"
+#include "gigaray/core/point_cloud.h"
 
 namespace gigaray {
 

@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <string>
 
-#include "gigaray/camera.h"
-#include "gigaray/image.h"
+#include "gigaray/core/camera.h"
+#include "gigaray/core/image.h"
 
 namespace gigaray {
 

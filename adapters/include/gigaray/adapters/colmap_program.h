@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "gigaray/adapters/lens.h"
-#include "gigaray/run_control.h"
+#include "gigaray/core/run_control.h"
 
 namespace gigaray {
 

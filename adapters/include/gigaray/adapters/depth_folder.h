@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "gigaray/adapters/atomic_output.h"
-#include "gigaray/image.h"
-#include "gigaray/light_field.h"
+#include "gigaray/core/image.h"
+#include "gigaray/core/light_field.h"
 
 namespace gigaray {
 

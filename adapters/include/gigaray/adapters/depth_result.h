@@ -6,8 +6,8 @@
 #include <string>
 
 #include "gigaray/adapters/reader.h"
-#include "gigaray/image.h"
-#include "gigaray/light_field.h"
+#include "gigaray/core/image.h"
+#include "gigaray/core/light_field.h"
 
 namespace gigaray {
 

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "gigaray/image.h"
-#include "gigaray/light_field.h"
+#include "gigaray/core/image.h"
+#include "gigaray/core/light_field.h"
 
 namespace gigaray {
 

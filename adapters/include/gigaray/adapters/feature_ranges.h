@@ -2,8 +2,8 @@
 // Copyright (c) 2026 The Gigaray authors
 #pragma once
 
-#include "gigaray/light_field.h"
-#include "gigaray/run_control.h"
+#include "gigaray/core/light_field.h"
+#include "gigaray/core/run_control.h"
 
 namespace gigaray {
 

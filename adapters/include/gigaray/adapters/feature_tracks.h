@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "gigaray/calibration/rail.h"
-#include "gigaray/image.h"
-#include "gigaray/run_control.h"
+#include "gigaray/core/image.h"
+#include "gigaray/core/run_control.h"
 
 namespace gigaray {
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "gigaray/camera.h"
+#include "gigaray/core/camera.h"
 
 namespace gigaray {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "gigaray/light_field.h"
+#include "gigaray/core/light_field.h"
 
 namespace gigaray {
 

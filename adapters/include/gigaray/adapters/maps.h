@@ -4,8 +4,8 @@
 
 #include <filesystem>
 
-#include "gigaray/image.h"
-#include "gigaray/light_field.h"
+#include "gigaray/core/image.h"
+#include "gigaray/core/light_field.h"
 
 namespace gigaray {
 

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "gigaray/adapters/atomic_output.h"
-#include "gigaray/surface_mesh.h"
-#include "gigaray/surface_texture.h"
+#include "gigaray/core/surface_mesh.h"
+#include "gigaray/core/surface_texture.h"
 
 namespace gigaray {
 

@@ -7,8 +7,8 @@
 #include <string>
 
 #include "gigaray/adapters/reader.h"
-#include "gigaray/light_field.h"
-#include "gigaray/run_control.h"
+#include "gigaray/core/light_field.h"
+#include "gigaray/core/run_control.h"
 
 namespace gigaray {
 

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <string>
 
-#include "gigaray/image.h"
+#include "gigaray/core/image.h"
 
 namespace gigaray {
 

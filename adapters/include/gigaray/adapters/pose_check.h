@@ -3,8 +3,8 @@
 #pragma once
 
 #include "gigaray/adapters/pose_convention.h"
-#include "gigaray/light_field.h"
-#include "gigaray/run_control.h"
+#include "gigaray/core/light_field.h"
+#include "gigaray/core/run_control.h"
 
 namespace gigaray {
 

@@ -12,8 +12,8 @@
 #include "gigaray/adapters/pictures.h"
 #include "gigaray/calibration/rail.h"
 #include "gigaray/calibration/rail_line.h"
-#include "gigaray/light_field.h"
-#include "gigaray/run_control.h"
+#include "gigaray/core/light_field.h"
+#include "gigaray/core/run_control.h"
 
 namespace gigaray {
 

@@ -7,8 +7,8 @@
 #include <optional>
 
 #include "gigaray/adapters/pose_convention.h"
-#include "gigaray/kept_pictures.h"
-#include "gigaray/light_field.h"
+#include "gigaray/core/kept_pictures.h"
+#include "gigaray/core/light_field.h"
 
 namespace gigaray {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "gigaray/adapters/reader.h"
-#include "gigaray/light_field.h"
+#include "gigaray/core/light_field.h"
 
 namespace gigaray {
 

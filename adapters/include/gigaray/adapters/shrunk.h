@@ -2,7 +2,7 @@
 // Copyright (c) 2026 The Gigaray authors
 #pragma once
 
-#include "gigaray/light_field.h"
+#include "gigaray/core/light_field.h"
 
 namespace gigaray {
 

@@ -7,9 +7,9 @@
 #include <memory>
 
 #include "gigaray/adapters/atomic_output.h"
-#include "gigaray/light_field.h"
-#include "gigaray/run_control.h"
-#include "gigaray/sparse_light_field.h"
+#include "gigaray/core/light_field.h"
+#include "gigaray/core/run_control.h"
+#include "gigaray/sparse/sparse_light_field.h"
 
 namespace gigaray {
 

@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <functional>
 
+#include "gigaray/core/point_cloud.h"
+#include "gigaray/core/run_control.h"
 #include "gigaray/meshing/view_points.h"
-#include "gigaray/point_cloud.h"
-#include "gigaray/run_control.h"
 
 namespace gigaray {
 

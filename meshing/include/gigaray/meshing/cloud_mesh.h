@@ -2,9 +2,9 @@
 // Copyright (c) 2026 The Gigaray authors
 #pragma once
 
-#include "gigaray/point_cloud.h"
-#include "gigaray/run_control.h"
-#include "gigaray/surface_mesh.h"
+#include "gigaray/core/point_cloud.h"
+#include "gigaray/core/run_control.h"
+#include "gigaray/core/surface_mesh.h"
 
 namespace gigaray {
 

@@ -2,31 +2,14 @@
 // Copyright (c) 2026 The Gigaray authors
 #pragma once
 
-#include <functional>
 #include <vector>
 
-#include "gigaray/camera.h"
-#include "gigaray/image.h"
-#include "gigaray/run_control.h"
+#include "gigaray/core/camera.h"
+#include "gigaray/core/depth_view.h"
+#include "gigaray/core/image.h"
+#include "gigaray/core/run_control.h"
 
 namespace gigaray {
-
-/// A view with its depth: what points and surfaces are made of. All maps have the camera's size.
-struct DepthView {
-  Camera camera;
-  FloatMap inverse_depth;       ///< (v, u), 1 / scene unit; NaN: no estimate
-  FloatMap confidence;          ///< (v, u), [0, 1]; empty: nothing is known of it
-  Image<std::uint8_t> picture;  ///< sRGB (v, u, c)
-};
-
-/// All views of a result. `read` is called from one thread, for the same view more than once; what
-/// it throws is passed on.
-struct DepthViews {
-  std::vector<Camera> cameras;
-  std::function<DepthView(int view)> read;
-
-  int size() const { return int(cameras.size()); }
-};
 
 /// Views in a frame that floats are fine enough for.
 struct NearbyViews {

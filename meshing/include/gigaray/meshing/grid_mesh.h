@@ -2,8 +2,8 @@
 // Copyright (c) 2026 The Gigaray authors
 #pragma once
 
+#include "gigaray/core/surface_mesh.h"
 #include "gigaray/meshing/view_points.h"
-#include "gigaray/surface_mesh.h"
 
 namespace gigaray {
 

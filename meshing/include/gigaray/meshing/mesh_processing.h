@@ -4,7 +4,7 @@
 
 #include <cstddef>
 
-#include "gigaray/surface_mesh.h"
+#include "gigaray/core/surface_mesh.h"
 
 namespace gigaray {
 

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <optional>
 
-#include "gigaray/surface_mesh.h"
+#include "gigaray/core/surface_mesh.h"
 
 namespace gigaray {
 

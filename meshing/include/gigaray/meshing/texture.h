@@ -4,9 +4,9 @@
 
 #include <cstddef>
 
+#include "gigaray/core/surface_mesh.h"
+#include "gigaray/core/surface_texture.h"
 #include "gigaray/meshing/depth_view.h"
-#include "gigaray/surface_mesh.h"
-#include "gigaray/surface_texture.h"
 
 namespace gigaray {
 

@@ -5,8 +5,8 @@
 #include <optional>
 #include <span>
 
+#include "gigaray/core/point_cloud.h"
 #include "gigaray/meshing/depth_view.h"
-#include "gigaray/point_cloud.h"
 
 namespace gigaray {
 

@@ -2,7 +2,7 @@
 // Copyright (c) 2026 The Gigaray authors
 #pragma once
 
-#include "gigaray/ray_sampler.h"
+#include "gigaray/core/ray_sampler.h"
 
 namespace gigaray {
 

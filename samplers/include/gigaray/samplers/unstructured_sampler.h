@@ -4,7 +4,7 @@
 
 #include <Eigen/Core>
 
-#include "gigaray/ray_sampler.h"
+#include "gigaray/core/ray_sampler.h"
 
 namespace gigaray {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "gigaray/calibration/rail.h"
-#include "gigaray/run_control.h"
+#include "gigaray/core/run_control.h"
 
 namespace gigaray {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "gigaray/calibration/rail.h"
-#include "gigaray/camera.h"
+#include "gigaray/core/camera.h"
 
 namespace gigaray {
 
