@@ -15,6 +15,7 @@
 #include "gigaray/adapters/atomic_output.h"
 #include "gigaray/baselines/compare.h"
 #include "gigaray/baselines/contest_report.h"
+#include "gigaray/version.h"
 #include "numbers.h"
 #include "output_option.h"
 

@@ -17,7 +17,6 @@
 #include "gigaray/core/metric_depth.h"
 #include "gigaray/workflows/cameras.h"
 #include "gigaray/workflows/map_statistics.h"
-#include "shell_word.h"
 
 namespace gigaray::cli {
 namespace {

@@ -21,6 +21,7 @@
 #include "console.h"
 #include "did_you_mean.h"
 #include "flag_names.h"
+#include "gigaray/version.h"
 #include "terminal.h"
 #include "threads_option.h"
 

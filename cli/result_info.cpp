@@ -15,7 +15,6 @@
 #include "gigaray/adapters/sparse_file.h"
 #include "gigaray/core/error.h"
 #include "model_info.h"
-#include "shell_word.h"
 
 namespace gigaray::cli {
 namespace {

@@ -8,6 +8,7 @@
 #include "experiments/experiments.h"
 #include "gigaray/adapters/atomic_output.h"
 #include "gigaray/core/parallel.h"
+#include "gigaray/version.h"
 
 namespace gigaray::experiments {
 namespace {

@@ -11,55 +11,33 @@
 
 #include "arrays.h"
 #include "gigaray/adapters/pose_convention.h"
+#include "gigaray/core/image_view.h"
 #include "light_field.h"
 
 namespace gigaray::python {
 namespace {
 
-/// A picture in memory of somebody else.
-struct ArrayPicture {
-  const std::uint8_t* data = nullptr;
-  py::ssize_t stride_v = 0, stride_u = 0, stride_c = 0;  ///< bytes
-};
+/// Keeps arrays; the last one who reads may be a thread of the library.
+std::shared_ptr<const void> kept(py::object owner) {
+  return {new py::object(std::move(owner)), [](py::object* object) {
+            const py::gil_scoped_acquire lock;
+            delete object;
+          }};
+}
 
-class ArrayPixels : public PixelSource {
- public:
-  ArrayPixels(int width, int height, int bit_depth, std::vector<ArrayPicture> pictures,
-              py::object owner)
-      : width_(width),
-        height_(height),
-        bit_depth_(bit_depth),
-        pictures_(std::move(pictures)),
-        owner_(std::move(owner)) {}
-  ~ArrayPixels() override {
-    // The last one who reads may be a thread of the library.
-    const py::gil_scoped_acquire lock;
-    owner_ = {};
+template <class T>
+std::shared_ptr<const PixelSource> pixels_of_arrays(const std::vector<py::array>& pictures,
+                                                    py::object owner) {
+  std::vector<ImageView<const T>> views;
+  for (const py::array& picture : pictures) {
+    ImageView<const T>& view = views.emplace_back(static_cast<const T*>(picture.data()),
+                                                  int(picture.shape(1)), int(picture.shape(0)), 3);
+    view.stride_v = picture.strides(0);
+    view.stride_u = picture.strides(1);
+    view.stride_c = picture.strides(2);
   }
-
-  Image<std::uint16_t> read(int view_idx) const override {
-    return bit_depth_ == 8 ? widened<std::uint8_t>(view_idx) : widened<std::uint16_t>(view_idx);
-  }
-  int bit_depth() const override { return bit_depth_; }
-  bool is_held() const override { return true; }
-
- private:
-  template <class T>
-  Image<std::uint16_t> widened(int view_idx) const {
-    const ArrayPicture& from = pictures_[std::size_t(view_idx)];
-    Image<std::uint16_t> picture(width_, height_, 3);
-    for (int v = 0; v < height_; ++v)
-      for (int u = 0; u < width_; ++u)
-        for (int c = 0; c < 3; ++c)
-          picture(u, v, c) = *reinterpret_cast<const T*>(from.data + v * from.stride_v +
-                                                         u * from.stride_u + c * from.stride_c);
-    return picture;
-  }
-
-  int width_, height_, bit_depth_;
-  std::vector<ArrayPicture> pictures_;
-  py::object owner_;
-};
+  return pixels_of_views(std::move(views), kept(std::move(owner)));
+}
 
 int bit_depth_of(const py::array& array, const std::string& field) {
   if (py::isinstance<py::array_t<std::uint8_t>>(array)) return 8;
@@ -258,7 +236,6 @@ std::shared_ptr<const PixelSource> pixels_in_arrays(const py::object& object,
     refuse("`" + field + "` has " + std::to_string(pictures.size()) +
            " pictures; depth needs two or more");
   const int bit_depth = bit_depth_of(pictures.front(), field);
-  std::vector<ArrayPicture> places;
   py::list owners;
   for (const py::array& picture : pictures) {
     if (picture.ndim() != 3 || picture.shape(2) != 3 || picture.size() == 0)
@@ -267,15 +244,13 @@ std::shared_ptr<const PixelSource> pixels_in_arrays(const py::object& object,
     if (picture.shape(0) != pictures[0].shape(0) || picture.shape(1) != pictures[0].shape(1) ||
         bit_depth_of(picture, field) != bit_depth)
       refuse("`" + field + "`: pictures must all have one size and type");
-    places.push_back({static_cast<const std::uint8_t*>(picture.data()), picture.strides(0),
-                      picture.strides(1), picture.strides(2)});
     owners.append(picture);
   }
   shape.views.resize(pictures.size());
   shape.height = int(pictures[0].shape(0));
   shape.width = int(pictures[0].shape(1));
-  return std::make_shared<ArrayPixels>(shape.width, shape.height, bit_depth, std::move(places),
-                                       std::move(owners));
+  return bit_depth == 8 ? pixels_of_arrays<std::uint8_t>(pictures, std::move(owners))
+                        : pixels_of_arrays<std::uint16_t>(pictures, std::move(owners));
 }
 
 void bind_array_pixels(py::module_& module) {

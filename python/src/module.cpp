@@ -7,6 +7,7 @@
 #include "arrays.h"
 #include "errors.h"
 #include "gigaray/adapters/depth_colours.h"
+#include "gigaray/version.h"
 #include "light_field.h"
 #include "result.h"
 #include "run.h"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Gigaray authors
 #include "depth_record.h"
+#include "gigaray/version.h"
 
 #include <sys/resource.h>
 

@@ -66,4 +66,16 @@ std::string view_name_of(std::string_view name) {
   return encoded(name, [](unsigned char byte) { return byte < ' ' || byte == 0x7f; });
 }
 
+std::string shell_word(const std::filesystem::path& path) {
+  const std::string text = path.string();
+  // An option would begin like this.
+  const std::string shown = text.starts_with('-') ? "./" + text : text;
+  constexpr const char* kPlain =
+      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./+-,@%=:";
+  if (!shown.empty() && shown.find_first_not_of(kPlain) == std::string::npos) return shown;
+  std::string quoted = "'";
+  for (const char letter : shown) quoted += letter == '\'' ? "'\\''" : std::string(1, letter);
+  return quoted + "'";
+}
+
 }  // namespace gigaray

@@ -7,6 +7,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "gigaray/core/error.h"
+#include "gigaray/core/scaled_camera.h"
 
 namespace gigaray {
 namespace {
@@ -51,25 +52,17 @@ LightField shrunk(LightField light_field, int max_size) {
                                                  std::to_string(kLeast));
   const int largest = std::max(light_field.width, light_field.height);
   if (largest <= max_size) return light_field;
-  const auto scaled = [&](int size) {
+  const auto size_of = [&](int size) {
     return std::max(1, int(std::lround(double(size) * max_size / largest)));
   };
   LightField small = light_field;
-  small.width = scaled(light_field.width);
-  small.height = scaled(light_field.height);
+  small.width = size_of(light_field.width);
+  small.height = size_of(light_field.height);
   small.pixels =
       std::make_shared<ShrunkPictures>(std::move(light_field), small.width, small.height);
   const double by_u = double(small.width) / light_field.width,
                by_v = double(small.height) / light_field.height;
-  for (Camera& camera : small.cameras) {
-    camera.focal_u *= by_u;
-    camera.focal_v *= by_v;
-    // The corner of the picture stays, half a pixel beside the centre of the first one.
-    camera.centre_u = (camera.centre_u + 0.5) * by_u - 0.5;
-    camera.centre_v = (camera.centre_v + 0.5) * by_v - 0.5;
-    camera.width = std::clamp(int(std::floor(camera.width * by_u)), 1, small.width);
-    camera.height = std::clamp(int(std::floor(camera.height * by_v)), 1, small.height);
-  }
+  for (Camera& camera : small.cameras) camera = scaled(camera, by_u, by_v);
   if (small.rig.focal_px) *small.rig.focal_px *= by_u;
   if (auto& point = small.rig.principal_point)
     point = Eigen::Vector2d((point->x() + 0.5) * by_u - 0.5, (point->y() + 0.5) * by_v - 0.5);

@@ -53,7 +53,10 @@ Kernel KernelSet::build(const std::string& file, const std::string& entry,
     all_options += common_;
   }
   std::vector<SourcePart> parts;
-  for (const std::string& name : names) parts.push_back({name, kernel_source(name)});
+  for (const std::string& name : names) {
+    parts.push_back({name, kernel_source(name)});
+    GIGARAY_CHECK(!parts.back().text.empty());
+  }
   return Kernel(device_, build_program(device_, parts, all_options), entry);
 }
 

@@ -17,7 +17,7 @@ struct SourcePart {
 };
 
 /// Text of an embedded file of the engine ("density_score.cl"), by its name without folders. An
-/// unknown name is a bug and aborts. The definition is made by gigaray_embed_kernels().
+/// unknown name gives nothing. The definition is made by gigaray_embed_files().
 std::string_view kernel_source(std::string_view file_name);
 
 /// The program of all parts joined in order, compiled as OpenCL C 1.2 with `options` (defines).

@@ -11,9 +11,10 @@
 #include <string_view>
 #include <vector>
 
+#include "gigaray/core/api.h"
 #include "gigaray/core/run_control.h"
 
-namespace gigaray {
+namespace GIGARAY_API gigaray {
 
 /// What an output may do to the place where it goes. Under any rules nothing is removed or replaced
 /// but what this library wrote itself and nobody changed since: of folders a manifest in them says

@@ -9,7 +9,9 @@
 #include <string>
 #include <vector>
 
-namespace gigaray {
+#include "gigaray/core/api.h"
+
+namespace GIGARAY_API gigaray {
 
 /// Another program with what it prints, stdout and stderr together. It runs in a process group of
 /// its own, which is killed when this object goes, and also when this process ends in any other

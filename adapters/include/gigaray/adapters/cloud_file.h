@@ -7,9 +7,10 @@
 #include <string>
 
 #include "gigaray/adapters/atomic_output.h"
+#include "gigaray/core/api.h"
 #include "gigaray/core/point_cloud.h"
 
-namespace gigaray {
+namespace GIGARAY_API gigaray {
 
 enum class CloudFormat { kPly, kPcd };
 

@@ -5,10 +5,11 @@
 #include <filesystem>
 #include <string>
 
+#include "gigaray/core/api.h"
 #include "gigaray/core/camera.h"
 #include "gigaray/core/image.h"
 
-namespace gigaray {
+namespace GIGARAY_API gigaray {
 
 /// Where the depth map of an image lies in a dense workspace of COLMAP; what its stereo_fusion
 /// reads: WORKSPACE/stereo/depth_maps/NAME.geometric.bin. name: of the image in the model.

@@ -12,8 +12,9 @@
 #include <vector>
 
 #include "gigaray/adapters/lens.h"
+#include "gigaray/core/api.h"
 
-namespace gigaray {
+namespace GIGARAY_API gigaray {
 
 /// A sparse model of COLMAP 3.8 – 3.12, https://colmap.github.io/format.html. Identifiers are
 /// COLMAP's: unique, in no order and with gaps.

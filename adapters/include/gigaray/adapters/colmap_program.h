@@ -8,9 +8,10 @@
 #include <vector>
 
 #include "gigaray/adapters/lens.h"
+#include "gigaray/core/api.h"
 #include "gigaray/core/run_control.h"
 
-namespace gigaray {
+namespace GIGARAY_API gigaray {
 
 /// How closely COLMAP looks. Of medium the cameras are as good as of high on most photographs.
 enum class ColmapQuality {

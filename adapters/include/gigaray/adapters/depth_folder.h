@@ -9,10 +9,11 @@
 #include <vector>
 
 #include "gigaray/adapters/atomic_output.h"
+#include "gigaray/core/api.h"
 #include "gigaray/core/image.h"
 #include "gigaray/core/light_field.h"
 
-namespace gigaray {
+namespace GIGARAY_API gigaray {
 
 class ColmapDense;
 class NerfstudioScene;

@@ -6,10 +6,11 @@
 #include <string>
 
 #include "gigaray/adapters/reader.h"
+#include "gigaray/core/api.h"
 #include "gigaray/core/image.h"
 #include "gigaray/core/light_field.h"
 
-namespace gigaray {
+namespace GIGARAY_API gigaray {
 
 /// The output folder of `gigaray depth`, for what goes on from it: geometry and maps of the views
 /// that have depth. Opening reads gigaray.json alone. Everything throws Error(kBadInput) naming the

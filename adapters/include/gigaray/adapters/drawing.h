@@ -8,10 +8,11 @@
 #include <string>
 #include <vector>
 
+#include "gigaray/core/api.h"
 #include "gigaray/core/image.h"
 #include "gigaray/core/light_field.h"
 
-namespace gigaray {
+namespace GIGARAY_API gigaray {
 
 // Pictures that explain an estimate to a human eye. All are 8-bit RGB (v, u, c) for write_png.
 

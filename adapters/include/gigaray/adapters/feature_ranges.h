@@ -2,10 +2,11 @@
 // Copyright (c) 2026 The Gigaray authors
 #pragma once
 
+#include "gigaray/core/api.h"
 #include "gigaray/core/light_field.h"
 #include "gigaray/core/run_control.h"
 
-namespace gigaray {
+namespace GIGARAY_API gigaray {
 
 /// Gives the cameras of an unstructured light field that have no range of inverse depths that of
 /// features (SIFT): matched along epipolar lines between views that look a similar way,

@@ -7,10 +7,11 @@
 #include <vector>
 
 #include "gigaray/calibration/rail.h"
+#include "gigaray/core/api.h"
 #include "gigaray/core/image.h"
 #include "gigaray/core/run_control.h"
 
-namespace gigaray {
+namespace GIGARAY_API gigaray {
 
 /// Pictures in an order in which neighbours overlap.
 struct PictureSeries {

@@ -4,9 +4,10 @@
 
 #include <filesystem>
 
+#include "gigaray/core/api.h"
 #include "gigaray/core/image.h"
 
-namespace gigaray {
+namespace GIGARAY_API gigaray {
 
 /// True disparity of the centre view of an HDF5 light field of the old HCI benchmark (Wanner et al.
 /// 2013), from its GT_DEPTH: d = dH · focalLength / depth − shift. (v, u), px per view step; NaN

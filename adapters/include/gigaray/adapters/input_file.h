@@ -7,7 +7,9 @@
 #include <string>
 #include <string_view>
 
-namespace gigaray {
+#include "gigaray/core/api.h"
+
+namespace GIGARAY_API gigaray {
 
 // The door that every input file comes through. A file is a regular file, links followed: devices,
 // pipes and sockets, which may never end or never answer, are refused at once. What a file claims

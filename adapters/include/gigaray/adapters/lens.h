@@ -8,9 +8,10 @@
 #include <string>
 #include <vector>
 
+#include "gigaray/core/api.h"
 #include "gigaray/core/camera.h"
 
-namespace gigaray {
+namespace GIGARAY_API gigaray {
 
 /// A lens as COLMAP describes it: one of its camera models and the parameters in COLMAP's order,
 /// for a picture of width x height px whose first pixel has its centre at (0.5, 0.5).

@@ -6,9 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "gigaray/core/api.h"
 #include "gigaray/core/light_field.h"
 
-namespace gigaray {
+namespace GIGARAY_API gigaray {
 
 /// Value of "format" in a gigaray.json that describes a light field (docs/formats.md).
 inline constexpr const char* kLightFieldFormat = "gigaray light field";

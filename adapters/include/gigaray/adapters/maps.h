@@ -4,10 +4,11 @@
 
 #include <filesystem>
 
+#include "gigaray/core/api.h"
 #include "gigaray/core/image.h"
 #include "gigaray/core/light_field.h"
 
-namespace gigaray {
+namespace GIGARAY_API gigaray {
 
 // Float maps in files: one value per pixel, rows from top to bottom in memory, NaN where there is
 // none. Every writer puts the whole file in place or nothing and throws Error(kIo) naming the

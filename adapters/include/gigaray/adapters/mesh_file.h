@@ -6,10 +6,11 @@
 #include <vector>
 
 #include "gigaray/adapters/atomic_output.h"
+#include "gigaray/core/api.h"
 #include "gigaray/core/surface_mesh.h"
 #include "gigaray/core/surface_texture.h"
 
-namespace gigaray {
+namespace GIGARAY_API gigaray {
 
 /// Writes a surface: binary .ply, .obj, binary glTF .glb, binary .stl (which
 /// has no colours). Axes as they are, but .glb, whose y points up and whose surfaces look along z:

@@ -7,9 +7,10 @@
 #include <string_view>
 #include <vector>
 
+#include "gigaray/core/api.h"
 #include "gigaray/core/option_value.h"
 
-namespace gigaray {
+namespace GIGARAY_API gigaray {
 
 /// A JSON object with these values, in this order; names with dots become objects in objects. What
 /// JSON has no number for (infinities) becomes words.

@@ -6,7 +6,9 @@
 #include <string>
 #include <string_view>
 
-namespace gigaray {
+#include "gigaray/core/api.h"
+
+namespace GIGARAY_API gigaray {
 
 /// A path as text for JSON, which is UTF-8: as it is, or, where its bytes are none (names in
 /// Latin-1), as "file:" and the path with those bytes percent-encoded, as in RFC 8089.
@@ -18,5 +20,8 @@ std::filesystem::path path_of_text(std::string_view text);
 /// control characters, both percent-encoded, so that it can stand in JSON, in lists and on a
 /// terminal and names a folder.
 std::string view_name_of(std::string_view name);
+
+/// A path as one word of a shell, for lines that the user can copy: in quotes if it needs them.
+std::string shell_word(const std::filesystem::path& path);
 
 }  // namespace gigaray

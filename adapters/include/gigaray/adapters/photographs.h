@@ -7,10 +7,11 @@
 #include <string>
 
 #include "gigaray/adapters/reader.h"
+#include "gigaray/core/api.h"
 #include "gigaray/core/light_field.h"
 #include "gigaray/core/run_control.h"
 
-namespace gigaray {
+namespace GIGARAY_API gigaray {
 
 /// The input, or its folder "images" when no reader knows the input itself and pictures lie there.
 std::filesystem::path folder_of_photographs(const std::filesystem::path& input);

@@ -6,9 +6,10 @@
 #include <filesystem>
 #include <string>
 
+#include "gigaray/core/api.h"
 #include "gigaray/core/image.h"
 
-namespace gigaray {
+namespace GIGARAY_API gigaray {
 
 /// How stored values become those of a light field, the same way for all of its views.
 struct ValueScale {

@@ -3,10 +3,11 @@
 #pragma once
 
 #include "gigaray/adapters/pose_convention.h"
+#include "gigaray/core/api.h"
 #include "gigaray/core/light_field.h"
 #include "gigaray/core/run_control.h"
 
-namespace gigaray {
+namespace GIGARAY_API gigaray {
 
 /// How well poses fit what is seen in the pictures.
 struct PoseAgreement {

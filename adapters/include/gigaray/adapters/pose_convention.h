@@ -8,7 +8,9 @@
 #include <string_view>
 #include <vector>
 
-namespace gigaray {
+#include "gigaray/core/api.h"
+
+namespace GIGARAY_API gigaray {
 
 /// How a file means its matrices of poses.
 struct PoseConvention {

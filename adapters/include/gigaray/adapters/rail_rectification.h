@@ -12,10 +12,11 @@
 #include "gigaray/adapters/pictures.h"
 #include "gigaray/calibration/rail.h"
 #include "gigaray/calibration/rail_line.h"
+#include "gigaray/core/api.h"
 #include "gigaray/core/light_field.h"
 #include "gigaray/core/run_control.h"
 
-namespace gigaray {
+namespace GIGARAY_API gigaray {
 
 /// A photograph taken on a rail.
 struct RailPhotograph {

@@ -7,10 +7,11 @@
 #include <optional>
 
 #include "gigaray/adapters/pose_convention.h"
+#include "gigaray/core/api.h"
 #include "gigaray/core/kept_pictures.h"
 #include "gigaray/core/light_field.h"
 
-namespace gigaray {
+namespace GIGARAY_API gigaray {
 
 /// Which way a camera goes as a number of the input rises, as the pictures show it: when it goes
 /// right, near things move to the left of the picture.

@@ -8,9 +8,10 @@
 #include <vector>
 
 #include "gigaray/adapters/reader.h"
+#include "gigaray/core/api.h"
 #include "gigaray/core/light_field.h"
 
-namespace gigaray {
+namespace GIGARAY_API gigaray {
 
 /// How well an input fits a reader.
 struct ProbeResult {

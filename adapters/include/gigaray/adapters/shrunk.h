@@ -2,9 +2,10 @@
 // Copyright (c) 2026 The Gigaray authors
 #pragma once
 
+#include "gigaray/core/api.h"
 #include "gigaray/core/light_field.h"
 
-namespace gigaray {
+namespace GIGARAY_API gigaray {
 
 /// The light field with pictures of at most max_size px, by area averages, on both sides. Cameras,
 /// focal length and a declared range follow; disparities are then px of the small pictures. A pixel

@@ -7,11 +7,12 @@
 #include <memory>
 
 #include "gigaray/adapters/atomic_output.h"
+#include "gigaray/core/api.h"
 #include "gigaray/core/light_field.h"
 #include "gigaray/core/run_control.h"
 #include "gigaray/sparse/sparse_light_field.h"
 
-namespace gigaray {
+namespace GIGARAY_API gigaray {
 
 /// LightField::format of a .grl file.
 inline constexpr const char* kSparseFormat = "sparse light field";

@@ -5,11 +5,12 @@
 #include <cstdint>
 #include <functional>
 
+#include "gigaray/core/api.h"
 #include "gigaray/core/point_cloud.h"
 #include "gigaray/core/run_control.h"
 #include "gigaray/meshing/view_points.h"
 
-namespace gigaray {
+namespace GIGARAY_API gigaray {
 
 struct CloudOptions {
   PointOptions points;

@@ -2,11 +2,12 @@
 // Copyright (c) 2026 The Gigaray authors
 #pragma once
 
+#include "gigaray/core/api.h"
 #include "gigaray/core/point_cloud.h"
 #include "gigaray/core/run_control.h"
 #include "gigaray/core/surface_mesh.h"
 
-namespace gigaray {
+namespace GIGARAY_API gigaray {
 
 // Surfaces through points (CGAL). Colours are those of the nearest points. Distances are measured
 // in the usual distance of a point from its neighbours, there, so that far and near parts of a

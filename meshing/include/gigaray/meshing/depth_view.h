@@ -4,12 +4,13 @@
 
 #include <vector>
 
+#include "gigaray/core/api.h"
 #include "gigaray/core/camera.h"
 #include "gigaray/core/depth_view.h"
 #include "gigaray/core/image.h"
 #include "gigaray/core/run_control.h"
 
-namespace gigaray {
+namespace GIGARAY_API gigaray {
 
 /// Views in a frame that floats are fine enough for.
 struct NearbyViews {

@@ -2,10 +2,11 @@
 // Copyright (c) 2026 The Gigaray authors
 #pragma once
 
+#include "gigaray/core/api.h"
 #include "gigaray/core/surface_mesh.h"
 #include "gigaray/meshing/view_points.h"
 
-namespace gigaray {
+namespace GIGARAY_API gigaray {
 
 /// The paper's surface (its figure 7): depth maps are triangulated on the pixel grid, cut where
 /// depth jumps, and what one view shows is left out of the next. Begins with the view in the

@@ -4,9 +4,10 @@
 
 #include <cstddef>
 
+#include "gigaray/core/api.h"
 #include "gigaray/core/surface_mesh.h"
 
-namespace gigaray {
+namespace GIGARAY_API gigaray {
 
 struct MeshCleaning {
   std::size_t least_faces = 50;  ///< Pieces with fewer are dropped, save those on a larger one.

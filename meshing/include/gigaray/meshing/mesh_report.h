@@ -6,9 +6,10 @@
 #include <cstddef>
 #include <optional>
 
+#include "gigaray/core/api.h"
 #include "gigaray/core/surface_mesh.h"
 
-namespace gigaray {
+namespace GIGARAY_API gigaray {
 
 /// Shape of a surface.
 struct MeshReport {

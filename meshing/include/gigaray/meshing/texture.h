@@ -4,11 +4,12 @@
 
 #include <cstddef>
 
+#include "gigaray/core/api.h"
 #include "gigaray/core/surface_mesh.h"
 #include "gigaray/core/surface_texture.h"
 #include "gigaray/meshing/depth_view.h"
 
-namespace gigaray {
+namespace GIGARAY_API gigaray {
 
 struct TextureOptions {
   int most_px = 4096;  ///< Width and height of the atlas at most. 64 … 32768

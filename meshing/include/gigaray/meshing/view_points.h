@@ -5,10 +5,11 @@
 #include <optional>
 #include <span>
 
+#include "gigaray/core/api.h"
 #include "gigaray/core/point_cloud.h"
 #include "gigaray/meshing/depth_view.h"
 
-namespace gigaray {
+namespace GIGARAY_API gigaray {
 
 /// Which pixels of a view become points.
 struct PointOptions {

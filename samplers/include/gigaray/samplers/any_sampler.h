@@ -4,11 +4,12 @@
 
 #include <variant>
 
+#include "gigaray/core/api.h"
 #include "gigaray/samplers/epi_sampler.h"
 #include "gigaray/samplers/grid_sampler.h"
 #include "gigaray/samplers/unstructured_sampler.h"
 
-namespace gigaray {
+namespace GIGARAY_API gigaray {
 
 /// The sampler of a light field, chosen at run time. Visited once per run.
 using AnySampler = std::variant<EpiSampler, GridSampler, UnstructuredSampler>;

@@ -2,9 +2,10 @@
 // Copyright (c) 2026 The Gigaray authors
 #pragma once
 
+#include "gigaray/core/api.h"
 #include "gigaray/core/ray_sampler.h"
 
-namespace gigaray {
+namespace GIGARAY_API gigaray {
 
 /// 3D light fields: views on a line, rays of a scene point form a straight line in one
 /// epipolar-plane image (eq. 3). Rows of different v never meet.

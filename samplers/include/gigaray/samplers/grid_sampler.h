@@ -2,9 +2,10 @@
 // Copyright (c) 2026 The Gigaray authors
 #pragma once
 
+#include "gigaray/core/api.h"
 #include "gigaray/core/ray_sampler.h"
 
-namespace gigaray {
+namespace GIGARAY_API gigaray {
 
 /// 4D light fields: parallel views at any real positions (s, t) of a plane; complete grids,
 /// crosses, stars and measured positions alike (eq. 9).

@@ -4,9 +4,10 @@
 
 #include <Eigen/Core>
 
+#include "gigaray/core/api.h"
 #include "gigaray/core/ray_sampler.h"
 
-namespace gigaray {
+namespace GIGARAY_API gigaray {
 
 /// Unstructured light fields: posed pinhole cameras anywhere. A ray is back-projected with the
 /// reference camera at inverse depth w and re-projected with the other one (eq. 10):

@@ -5,9 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "gigaray/core/api.h"
 #include "gigaray/core/light_field.h"
 
-namespace gigaray {
+namespace GIGARAY_API gigaray {
 
 /// A camera in the convention of docs/conventions.md, as JSON: what read_camera() reads.
 std::string camera_json(const Camera& camera);

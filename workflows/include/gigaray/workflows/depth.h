@@ -8,10 +8,11 @@
 #include <string>
 
 #include "gigaray/adapters/depth_folder.h"
+#include "gigaray/core/api.h"
 #include "gigaray/engine/reconstruct.h"
 #include "gigaray/workflows/input.h"
 
-namespace gigaray {
+namespace GIGARAY_API gigaray {
 
 /// Two distances from a camera, scene units: 0 < near < far, which may be infinite.
 struct DistanceRange {

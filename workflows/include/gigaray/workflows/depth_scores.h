@@ -7,11 +7,12 @@
 #include <string>
 #include <vector>
 
+#include "gigaray/core/api.h"
 #include "gigaray/core/run_control.h"
 #include "gigaray/workflows/memory_budget.h"
 #include "gigaray/workflows/scores.h"
 
-namespace gigaray {
+namespace GIGARAY_API gigaray {
 
 struct DepthChoice {
   std::optional<double> truth_scale;  ///< Scene units of a value of the truth; empty: 1.

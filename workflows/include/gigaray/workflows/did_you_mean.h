@@ -5,7 +5,9 @@
 #include <string>
 #include <vector>
 
-namespace gigaray {
+#include "gigaray/core/api.h"
+
+namespace GIGARAY_API gigaray {
 
 /// The known word that was probably meant: the nearest one by letters added, left out, changed or
 /// swapped, or the only one that begins like it. Empty: none is near.

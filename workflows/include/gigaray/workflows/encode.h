@@ -5,9 +5,10 @@
 #include <filesystem>
 
 #include "gigaray/adapters/sparse_file.h"
+#include "gigaray/core/api.h"
 #include "gigaray/workflows/depth.h"
 
-namespace gigaray {
+namespace GIGARAY_API gigaray {
 
 /// Disparities of all views for write_sparse_file(), computed now. The estimates stay in memory
 /// while the file is written; the plan of the run knows of it.

@@ -4,9 +4,10 @@
 
 #include <cstdint>
 
+#include "gigaray/core/api.h"
 #include "gigaray/core/image.h"
 
-namespace gigaray {
+namespace GIGARAY_API gigaray {
 
 /// The signed error as an 8-bit RGB picture (v, u, c): white is right, red too far by `range` or
 /// more, blue too near, as the HCI benchmark draws it. Black: no estimate. Grey: not scored (truth

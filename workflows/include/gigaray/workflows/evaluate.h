@@ -7,13 +7,14 @@
 #include <string>
 #include <vector>
 
+#include "gigaray/core/api.h"
 #include "gigaray/core/image.h"
 #include "gigaray/core/run_control.h"
 #include "gigaray/workflows/depth_scores.h"
 #include "gigaray/workflows/memory_budget.h"
 #include "gigaray/workflows/scores.h"
 
-namespace gigaray {
+namespace GIGARAY_API gigaray {
 
 /// Estimates to be held against a truth.
 struct EvaluateRequest {

@@ -10,12 +10,13 @@
 #include "gigaray/adapters/atomic_output.h"
 #include "gigaray/adapters/colmap_program.h"
 #include "gigaray/adapters/reader.h"
+#include "gigaray/core/api.h"
 #include "gigaray/core/light_field.h"
 #include "gigaray/core/run_control.h"
 #include "gigaray/engine/depth_options.h"
 #include "gigaray/workflows/stated_rig.h"
 
-namespace gigaray {
+namespace GIGARAY_API gigaray {
 
 /// A light field to open and what is said of it. {.path = "hci/cotton"} is enough for most.
 struct InputRequest {

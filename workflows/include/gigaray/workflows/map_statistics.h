@@ -6,9 +6,10 @@
 #include <cmath>
 #include <vector>
 
+#include "gigaray/core/api.h"
 #include "gigaray/core/image.h"
 
-namespace gigaray {
+namespace GIGARAY_API gigaray {
 
 /// The values of a map that are known, rising.
 class SortedValues {

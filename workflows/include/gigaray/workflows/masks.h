@@ -8,9 +8,10 @@
 #include <vector>
 
 #include "gigaray/applications/segmentation.h"
+#include "gigaray/core/api.h"
 #include "gigaray/workflows/result.h"
 
-namespace gigaray {
+namespace GIGARAY_API gigaray {
 
 /// A pixel, px; 0 0 is the top left one.
 struct PixelPlace {

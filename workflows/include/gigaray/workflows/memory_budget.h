@@ -4,7 +4,9 @@
 
 #include <string>
 
-namespace gigaray {
+#include "gigaray/core/api.h"
+
+namespace GIGARAY_API gigaray {
 
 /// Bytes that the program takes before it holds a picture, its libraries included.
 inline constexpr double kProgramBytes = 112 * double(1 << 20);

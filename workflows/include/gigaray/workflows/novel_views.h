@@ -7,10 +7,11 @@
 
 #include "gigaray/applications/novel_view.h"
 #include "gigaray/applications/picture_quality.h"
+#include "gigaray/core/api.h"
 #include "gigaray/workflows/memory_budget.h"
 #include "gigaray/workflows/result.h"
 
-namespace gigaray {
+namespace GIGARAY_API gigaray {
 
 /// The camera that a text means:
 ///   centre, a name or an index          of a view

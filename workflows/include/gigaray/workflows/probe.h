@@ -5,10 +5,11 @@
 #include <optional>
 #include <string>
 
+#include "gigaray/core/api.h"
 #include "gigaray/core/image.h"
 #include "gigaray/workflows/depth.h"
 
-namespace gigaray {
+namespace GIGARAY_API gigaray {
 
 /// A pixel to be explained.
 struct ProbeRequest {

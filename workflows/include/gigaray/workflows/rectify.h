@@ -8,10 +8,11 @@
 #include <vector>
 
 #include "gigaray/adapters/rail_rectification.h"
+#include "gigaray/core/api.h"
 #include "gigaray/core/run_control.h"
 #include "gigaray/workflows/memory_budget.h"
 
-namespace gigaray {
+namespace GIGARAY_API gigaray {
 
 /// Where the poses that the calibration of a rail starts from come from.
 enum class RailPoses {

@@ -11,9 +11,10 @@
 #include <vector>
 
 #include "gigaray/applications/refocus.h"
+#include "gigaray/core/api.h"
 #include "gigaray/workflows/novel_views.h"
 
-namespace gigaray {
+namespace GIGARAY_API gigaray {
 
 /// Kind of such a folder, for AtomicFolder.
 inline constexpr const char* kRenderFormat = "gigaray render";

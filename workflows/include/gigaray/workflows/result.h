@@ -10,12 +10,13 @@
 #include <vector>
 
 #include "gigaray/applications/rig_cameras.h"
+#include "gigaray/core/api.h"
 #include "gigaray/core/depth_view.h"
 #include "gigaray/core/light_field.h"
 #include "gigaray/engine/reconstruct.h"
 #include "gigaray/workflows/input.h"
 
-namespace gigaray {
+namespace GIGARAY_API gigaray {
 
 /// How a result is opened.
 struct ResultRequest {

@@ -8,10 +8,11 @@
 #include <utility>
 #include <vector>
 
+#include "gigaray/core/api.h"
 #include "gigaray/core/region_metrics.h"
 #include "gigaray/core/run_control.h"
 
-namespace gigaray {
+namespace GIGARAY_API gigaray {
 
 /// One view to score: its truth and the estimate of every candidate, as files.
 struct ViewMaps {

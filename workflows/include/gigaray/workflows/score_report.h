@@ -4,9 +4,10 @@
 
 #include <string>
 
+#include "gigaray/core/api.h"
 #include "gigaray/workflows/scores.h"
 
-namespace gigaray {
+namespace GIGARAY_API gigaray {
 
 // Each returns text that ends with a line break.
 

@@ -6,9 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "gigaray/core/api.h"
 #include "gigaray/workflows/scene_truth.h"
 
-namespace gigaray {
+namespace GIGARAY_API gigaray {
 
 struct Score {
   std::string name;     ///< As in JSON and in the head of a CSV file.

@@ -6,10 +6,11 @@
 #include <string>
 #include <vector>
 
+#include "gigaray/core/api.h"
 #include "gigaray/core/option_value.h"
 #include "gigaray/engine/depth_options.h"
 
-namespace gigaray {
+namespace GIGARAY_API gigaray {
 
 /// Sets options of the table (docs/options.md) by name. Throws Error(kInvalidArgument) naming one
 /// that there is not, with what may have been meant, and a value that it can't have.

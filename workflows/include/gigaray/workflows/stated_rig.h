@@ -5,9 +5,10 @@
 #include <optional>
 #include <string>
 
+#include "gigaray/core/api.h"
 #include "gigaray/core/light_field.h"
 
-namespace gigaray {
+namespace GIGARAY_API gigaray {
 
 /// The rig of views on a line or in a plane, where the input doesn't say, or in place of what it
 /// says.

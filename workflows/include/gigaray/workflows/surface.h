@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "gigaray/adapters/atomic_output.h"
+#include "gigaray/core/api.h"
 #include "gigaray/core/surface_texture.h"
 #include "gigaray/meshing/cloud.h"
 #include "gigaray/meshing/mesh_processing.h"
@@ -20,7 +21,7 @@
 #include "gigaray/workflows/memory_budget.h"
 #include "gigaray/workflows/result.h"
 
-namespace gigaray {
+namespace GIGARAY_API gigaray {
 
 /// Of posed photographs, whose confidence is the share of pixels within 1 % of the depth: what is
 /// less sure makes half of a room's wrong points and a seventh of all (docs/accuracy.md).

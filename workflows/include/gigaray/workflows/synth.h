@@ -5,10 +5,11 @@
 #include <filesystem>
 
 #include "gigaray/adapters/atomic_output.h"
+#include "gigaray/core/api.h"
 #include "gigaray/core/run_control.h"
 #include "gigaray/core/synthetic_capture.h"
 
-namespace gigaray {
+namespace GIGARAY_API gigaray {
 
 /// Writes a light field with exact disparity: VIEW.png, truth/VIEW.pfm, truth.pfm of the centre
 /// view, and gigaray.json, which also says how it was made. All or nothing. Returns it, without

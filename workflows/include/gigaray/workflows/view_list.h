@@ -5,9 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "gigaray/core/api.h"
 #include "gigaray/core/light_field.h"
 
-namespace gigaray {
+namespace GIGARAY_API gigaray {
 
 /// Views that a text means: "all" (empty list), "centre", or a comma-separated list of names,
 /// indices and ranges of indices ("0,4-6,view_09"). Throws Error(kInvalidArgument) naming the part.

@@ -5,9 +5,10 @@
 #include <optional>
 
 #include "gigaray/applications/segmentation.h"
+#include "gigaray/core/api.h"
 #include "gigaray/core/image.h"
 
-namespace gigaray {
+namespace GIGARAY_API gigaray {
 
 /// The value of the map at a pixel, steadied: the median of those in 3 × 3 pixels that lie on the
 /// same surface, that is, within `jump` of it. Empty: there is no estimate. The pixel must be in

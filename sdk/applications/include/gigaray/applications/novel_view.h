@@ -6,12 +6,13 @@
 #include <span>
 #include <vector>
 
+#include "gigaray/core/api.h"
 #include "gigaray/core/camera.h"
 #include "gigaray/core/depth_view.h"
 #include "gigaray/core/image.h"
 #include "gigaray/core/run_control.h"
 
-namespace gigaray {
+namespace GIGARAY_API gigaray {
 
 /// Weights of the views that see a point (Buehler et al. 2001, unstructured lumigraph).
 struct BlendOptions {

@@ -4,9 +4,10 @@
 
 #include <cstdint>
 
+#include "gigaray/core/api.h"
 #include "gigaray/core/image.h"
 
-namespace gigaray {
+namespace GIGARAY_API gigaray {
 
 /// How alike two pictures are; both RGB (v, u, c) of one size, 0 … 2^bit_depth − 1.
 struct PictureQuality {

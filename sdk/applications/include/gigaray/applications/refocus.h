@@ -4,11 +4,12 @@
 
 #include <cstdint>
 
+#include "gigaray/core/api.h"
 #include "gigaray/core/image.h"
 #include "gigaray/core/light_field.h"
 #include "gigaray/core/run_control.h"
 
-namespace gigaray {
+namespace GIGARAY_API gigaray {
 
 /// What is sharp in a refocused picture: a plane, in the unit of ViewDepth::disparity, which is
 /// linear over the picture of a plane.

@@ -2,11 +2,12 @@
 // Copyright (c) 2026 The Gigaray authors
 #pragma once
 
+#include "gigaray/core/api.h"
 #include "gigaray/core/camera.h"
 #include "gigaray/core/image.h"
 #include "gigaray/core/light_field.h"
 
-namespace gigaray {
+namespace GIGARAY_API gigaray {
 
 /// The views of any light field as posed pinhole cameras, and disparity as inverse depth, so that
 /// novel views, points and surfaces need not know which kind it is.

@@ -4,9 +4,10 @@
 
 #include <cstdint>
 
+#include "gigaray/core/api.h"
 #include "gigaray/core/image.h"
 
-namespace gigaray {
+namespace GIGARAY_API gigaray {
 
 // Segmentation by depth (section 5.3): what lies in an interval.
 

@@ -5,8 +5,9 @@
 #include <vector>
 
 #include "gigaray/calibration/rail.h"
+#include "gigaray/core/api.h"
 
-namespace gigaray {
+namespace GIGARAY_API gigaray {
 
 /// A rail known by nothing but the order of its views: they stand at equal steps of 1 along a line
 /// that the movement of the tracks tells, and look the same way. The scene frame is that of the

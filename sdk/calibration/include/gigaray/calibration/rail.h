@@ -5,7 +5,9 @@
 #include <Eigen/Core>
 #include <vector>
 
-namespace gigaray {
+#include "gigaray/core/api.h"
+
+namespace GIGARAY_API gigaray {
 
 /// A scene point in one picture.
 struct Sighting {

@@ -6,9 +6,10 @@
 #include <vector>
 
 #include "gigaray/calibration/rail.h"
+#include "gigaray/core/api.h"
 #include "gigaray/core/run_control.h"
 
-namespace gigaray {
+namespace GIGARAY_API gigaray {
 
 /// What the adjustment may move, and what it does about wrong tracks.
 struct RailAdjustmentOptions {

@@ -5,7 +5,9 @@
 #include <Eigen/Core>
 #include <vector>
 
-namespace gigaray {
+#include "gigaray/core/api.h"
+
+namespace GIGARAY_API gigaray {
 
 /// The line with the least orthogonal distances to camera centres, as the paper takes it for the
 /// baseline of a rail.

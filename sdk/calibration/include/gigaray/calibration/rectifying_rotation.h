@@ -8,9 +8,10 @@
 #include <vector>
 
 #include "gigaray/calibration/rail.h"
+#include "gigaray/core/api.h"
 #include "gigaray/core/camera.h"
 
-namespace gigaray {
+namespace GIGARAY_API gigaray {
 
 /// Rotation (scene → camera) of all cameras of a rail after rectification (Fusiello et al. 2000,
 /// "A compact algorithm for rectification of stereo pairs"): x along the rail, the view direction

@@ -6,9 +6,10 @@
 #include <stdexcept>
 #include <string>
 
+#include "gigaray/core/api.h"
 #include "gigaray/core/error.h"
 
-namespace gigaray {
+namespace GIGARAY_API gigaray {
 
 /// Throws Error(kInvalidArgument) with `what`, one line that names the argument, unless it holds.
 /// For the arguments of public calls.

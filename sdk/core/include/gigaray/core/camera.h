@@ -7,7 +7,9 @@
 #include <string>
 #include <vector>
 
-namespace gigaray {
+#include "gigaray/core/api.h"
+
+namespace GIGARAY_API gigaray {
 
 /// Closed range of inverse depths 1/z, 1/scene unit; 0 is infinity. min < max.
 struct InverseDepthRange {

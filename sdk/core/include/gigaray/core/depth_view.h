@@ -6,10 +6,11 @@
 #include <functional>
 #include <vector>
 
+#include "gigaray/core/api.h"
 #include "gigaray/core/camera.h"
 #include "gigaray/core/image.h"
 
-namespace gigaray {
+namespace GIGARAY_API gigaray {
 
 /// A view with its camera, picture, depth and confidence: what novel views, points and surfaces are
 /// made of. Picture and maps have the camera's size.

@@ -5,7 +5,9 @@
 #include <stdexcept>
 #include <string>
 
-namespace gigaray {
+#include "gigaray/core/api.h"
+
+namespace GIGARAY_API gigaray {
 
 /// What kind of thing went wrong; the program maps it to an exit code.
 enum class ErrorCode {

@@ -10,9 +10,10 @@
 #include <utility>
 #include <vector>
 
+#include "gigaray/core/api.h"
 #include "gigaray/core/error.h"
 
-namespace gigaray {
+namespace GIGARAY_API gigaray {
 
 /// width * height * channels. Throws Error: kInvalidArgument for a width or height below 0 or fewer
 /// than one channel, kOutOfMemory for more than memory can count.

@@ -5,9 +5,10 @@
 #include <Eigen/Core>
 #include <optional>
 
+#include "gigaray/core/api.h"
 #include "gigaray/core/light_field.h"
 
-namespace gigaray {
+namespace GIGARAY_API gigaray {
 
 /// What JPEG rounds to: the DCT coefficients of every 8×8 block are multiples of these steps
 /// (ITU-T T.81). Rows: vertical frequency, columns: horizontal; levels of 8 bit, ≥ 1.

@@ -6,9 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "gigaray/core/api.h"
 #include "gigaray/core/light_field.h"
 
-namespace gigaray {
+namespace GIGARAY_API gigaray {
 
 /// Decoded pictures of one run, so that those that look at a light field one after the other
 /// (layout, direction, range, noise, depth itself) decode each picture once. They take 8 or 16 bit

@@ -8,10 +8,11 @@
 #include <string>
 #include <vector>
 
+#include "gigaray/core/api.h"
 #include "gigaray/core/camera.h"
 #include "gigaray/core/image.h"
 
-namespace gigaray {
+namespace GIGARAY_API gigaray {
 
 enum class LightFieldKind {
   k3D,           ///< Views on a line: t is the same for all, rows are epipolar lines.

@@ -4,7 +4,9 @@
 
 #include <filesystem>
 
-namespace gigaray {
+#include "gigaray/core/api.h"
+
+namespace GIGARAY_API gigaray {
 
 /// Bytes that this process may still take: the least of what the machine (/proc/meminfo), its
 /// control groups of version 1 or 2 with all those around them, and its own limits of address space

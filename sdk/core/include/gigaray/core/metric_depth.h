@@ -2,10 +2,11 @@
 // Copyright (c) 2026 The Gigaray authors
 #pragma once
 
+#include "gigaray/core/api.h"
 #include "gigaray/core/image.h"
 #include "gigaray/core/light_field.h"
 
-namespace gigaray {
+namespace GIGARAY_API gigaray {
 
 /// Is enough known about the rig for depth in scene units: focal length and baseline? Without a
 /// focus distance disparity 0 is at infinity.

@@ -5,9 +5,10 @@
 #include <array>
 #include <vector>
 
+#include "gigaray/core/api.h"
 #include "gigaray/core/image.h"
 
-namespace gigaray {
+namespace GIGARAY_API gigaray {
 
 // Scores of a whole disparity map; gigaray/core/region_metrics.h has those of parts of a scene.
 // For all of them: pixels whose truth is not finite are ignored; pixels whose estimate is not

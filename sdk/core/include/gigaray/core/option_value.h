@@ -6,7 +6,9 @@
 #include <variant>
 #include <vector>
 
-namespace gigaray {
+#include "gigaray/core/api.h"
+
+namespace GIGARAY_API gigaray {
 
 /// Value of an option as a file, a command line or another language states it: nothing (an optional
 /// one that is left open), yes or no, a number, several, or words. Words may also hold any of the

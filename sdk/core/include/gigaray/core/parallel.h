@@ -5,7 +5,9 @@
 #include <filesystem>
 #include <functional>
 
-namespace gigaray {
+#include "gigaray/core/api.h"
+
+namespace GIGARAY_API gigaray {
 
 /// Processors that this process may use, 1 or more: those of its affinity mask (`taskset`), less
 /// what the quotas of its control groups allow (`docker run --cpus`), rounded up. The same at every

@@ -7,9 +7,10 @@
 #include <cstdint>
 #include <vector>
 
+#include "gigaray/core/api.h"
 #include "gigaray/core/error.h"
 
-namespace gigaray {
+namespace GIGARAY_API gigaray {
 
 /// sRGB, 8 bit.
 using Rgb8 = std::array<std::uint8_t, 3>;

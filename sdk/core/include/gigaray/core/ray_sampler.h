@@ -8,10 +8,11 @@
 #include <string_view>
 #include <vector>
 
+#include "gigaray/core/api.h"
 #include "gigaray/core/image.h"
 #include "gigaray/core/light_field.h"
 
-namespace gigaray {
+namespace GIGARAY_API gigaray {
 
 /// A ray of a view under a hypothesis about how near its scene point is.
 struct Ray {

@@ -4,10 +4,11 @@
 
 #include <cstdint>
 
+#include "gigaray/core/api.h"
 #include "gigaray/core/image.h"
 #include "gigaray/core/light_field.h"
 
-namespace gigaray {
+namespace GIGARAY_API gigaray {
 
 // Metrics of the HCI 4D light field benchmark for parts of a scene, after Honauer et al. 2016 and
 // the public evaluation toolkit of the benchmark (https://github.com/lightfield-analysis). The

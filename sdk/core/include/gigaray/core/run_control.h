@@ -6,9 +6,10 @@
 #include <functional>
 #include <string>
 
+#include "gigaray/core/api.h"
 #include "gigaray/core/error.h"
 
-namespace gigaray {
+namespace GIGARAY_API gigaray {
 
 /// Handle that every long call takes: it reports progress and can be asked to stop. The library
 /// itself prints nothing.

@@ -5,7 +5,9 @@
 #include <cstdint>
 #include <string>
 
-namespace gigaray {
+#include "gigaray/core/api.h"
+
+namespace GIGARAY_API gigaray {
 
 /// The folder for temporary files: $TMPDIR, else the system's. Throws Error(kIo) naming TMPDIR when
 /// there is no such folder, with `advice` at the end of the line.

@@ -4,9 +4,10 @@
 
 #include <memory>
 
+#include "gigaray/core/api.h"
 #include "gigaray/core/light_field.h"
 
-namespace gigaray {
+namespace GIGARAY_API gigaray {
 
 /// A picture (v, u, c) under a Gaussian of `sigma` px, edges repeated, rounded to integers.
 Image<std::uint16_t> smooth_picture(const Image<std::uint16_t>& picture, double sigma);

@@ -4,7 +4,9 @@
 
 #include <cmath>
 
-namespace gigaray {
+#include "gigaray/core/api.h"
+
+namespace GIGARAY_API gigaray {
 
 /// The transfer function of sRGB (IEC 61966-2-1); both values in [0, 1].
 inline double linear_from_srgb(double encoded) {

@@ -7,9 +7,10 @@
 #include <cstdint>
 #include <vector>
 
+#include "gigaray/core/api.h"
 #include "gigaray/core/point_cloud.h"
 
-namespace gigaray {
+namespace GIGARAY_API gigaray {
 
 /// A surface of triangles. Attributes of vertices are equally long.
 struct SurfaceMesh {

@@ -7,9 +7,10 @@
 #include <cstdint>
 #include <vector>
 
+#include "gigaray/core/api.h"
 #include "gigaray/core/image.h"
 
-namespace gigaray {
+namespace GIGARAY_API gigaray {
 
 /// The texture of a surface: one picture (an atlas), and where the triangles lie in it.
 struct SurfaceTexture {

@@ -7,11 +7,12 @@
 #include <string>
 #include <vector>
 
+#include "gigaray/core/api.h"
 #include "gigaray/core/image.h"
 #include "gigaray/core/light_field.h"
 #include "gigaray/core/run_control.h"
 
-namespace gigaray {
+namespace GIGARAY_API gigaray {
 
 /// What to render: a seeded scene seen by a rig of parallel pinhole views. The same options give
 /// the same pixels on every machine.

@@ -9,12 +9,13 @@
 #include <string>
 #include <vector>
 
+#include "gigaray/core/api.h"
 #include "gigaray/core/camera.h"
 #include "gigaray/core/image.h"
 #include "gigaray/core/run_control.h"
 #include "gigaray/core/synthetic.h"
 
-namespace gigaray {
+namespace GIGARAY_API gigaray {
 
 /// How the camera goes past a synthetic scene, whose surfaces lie between the depths 1 and 2.5 of
 /// the middle camera, those of "room" and "figure" between 1 and 4. The middle of a scene has half

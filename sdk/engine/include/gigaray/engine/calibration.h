@@ -2,9 +2,10 @@
 // Copyright (c) 2026 The Gigaray authors
 #pragma once
 
+#include "gigaray/core/api.h"
 #include "gigaray/core/light_field.h"
 
-namespace gigaray {
+namespace GIGARAY_API gigaray {
 
 /// Share of right pixels among those whose best score exceeds the mean score by `contrast`, 0 … 1:
 /// what confidence means in `auto`. Right is within 0.07 px of the truth, of posed photographs

@@ -4,10 +4,11 @@
 
 #include <optional>
 
+#include "gigaray/core/api.h"
 #include "gigaray/core/light_field.h"
 #include "gigaray/core/run_control.h"
 
-namespace gigaray {
+namespace GIGARAY_API gigaray {
 
 /// When the adapter only assumed which way the cameras go (LightField::sign_is_assumed), finds it
 /// by photo-consistency and turns the positions accordingly. Of (s, t), (s, −t), (t, s) and (−t, s)

@@ -6,9 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "gigaray/core/api.h"
 #include "gigaray/core/light_field.h"
 
-namespace gigaray {
+namespace GIGARAY_API gigaray {
 
 /// Edge confidence Ce and the mask Me (eq. 2): where a depth estimate is worth trying.
 struct EdgeOptions {

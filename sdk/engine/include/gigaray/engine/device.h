@@ -8,9 +8,10 @@
 #include <string>
 #include <vector>
 
+#include "gigaray/core/api.h"
 #include "gigaray/core/error.h"
 
-namespace gigaray {
+namespace GIGARAY_API gigaray {
 namespace opencl {
 class Device;
 }

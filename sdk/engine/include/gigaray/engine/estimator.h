@@ -5,10 +5,11 @@
 #include <memory>
 #include <vector>
 
+#include "gigaray/core/api.h"
 #include "gigaray/engine/device.h"
 #include "gigaray/engine/reconstruct.h"
 
-namespace gigaray {
+namespace GIGARAY_API gigaray {
 
 class CoarseGuide;
 

@@ -5,10 +5,11 @@
 #include <array>
 #include <vector>
 
+#include "gigaray/core/api.h"
 #include "gigaray/core/light_field.h"
 #include "gigaray/core/run_control.h"
 
-namespace gigaray {
+namespace GIGARAY_API gigaray {
 
 /// How much brighter a picture shows the same than the brightest one does (0 or less, unless one
 /// stands out): ln of the encoded value, by R, G, B. Encoded by a power a gain in linear light is

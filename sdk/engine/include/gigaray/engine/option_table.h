@@ -12,10 +12,11 @@
 #include <variant>
 #include <vector>
 
+#include "gigaray/core/api.h"
 #include "gigaray/core/option_value.h"
 #include "gigaray/engine/depth_options.h"
 
-namespace gigaray {
+namespace GIGARAY_API gigaray {
 
 enum class OptionType {
   kBool,

@@ -9,12 +9,13 @@
 #include <string>
 #include <vector>
 
+#include "gigaray/core/api.h"
 #include "gigaray/core/light_field.h"
 #include "gigaray/core/ray_sampler.h"
 #include "gigaray/core/run_control.h"
 #include "gigaray/engine/depth_options.h"
 
-namespace gigaray {
+namespace GIGARAY_API gigaray {
 
 /// Mean radiance of an estimate, working colour space.
 struct Radiance {

@@ -4,12 +4,13 @@
 
 #include <vector>
 
+#include "gigaray/core/api.h"
 #include "gigaray/core/light_field.h"
 #include "gigaray/core/ray_sampler.h"
 #include "gigaray/core/run_control.h"
 #include "gigaray/engine/depth_options.h"
 
-namespace gigaray {
+namespace GIGARAY_API gigaray {
 
 /// What the pictures themselves say about the range of disparities.
 struct RangeEstimate {

@@ -7,9 +7,10 @@
 #include <string>
 #include <vector>
 
+#include "gigaray/core/api.h"
 #include "gigaray/core/run_control.h"
 
-namespace gigaray {
+namespace GIGARAY_API gigaray {
 
 /// One setting of the compile-time parameters of a kernel, tried on a device.
 struct TuneTrial {

@@ -5,10 +5,11 @@
 #include <optional>
 #include <vector>
 
+#include "gigaray/core/api.h"
 #include "gigaray/core/light_field.h"
 #include "gigaray/core/run_control.h"
 
-namespace gigaray {
+namespace GIGARAY_API gigaray {
 
 /// How the numbers of pictures go through a grid of cameras: run by run.
 struct ViewLayout {

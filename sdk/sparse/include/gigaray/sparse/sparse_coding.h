@@ -5,9 +5,10 @@
 #include <string>
 #include <string_view>
 
+#include "gigaray/core/api.h"
 #include "gigaray/sparse/sparse_light_field.h"
 
-namespace gigaray {
+namespace GIGARAY_API gigaray {
 
 // Bytes of the two parts of a sparse light field, compressed with zstd; docs/formats.md has the
 // layout. Every decoder throws Error(kBadInput) for bytes that can't be meant, with a text that a

@@ -9,11 +9,12 @@
 #include <span>
 #include <vector>
 
+#include "gigaray/core/api.h"
 #include "gigaray/core/image.h"
 #include "gigaray/core/light_field.h"
 #include "gigaray/core/run_control.h"
 
-namespace gigaray {
+namespace GIGARAY_API gigaray {
 
 /// A tuple (m, u, v, s, t, r̄) of the sparse light field Γ (section 3): the line that a scene point
 /// draws through the views. Integers, so that every machine draws the same picture.
