@@ -21,6 +21,7 @@ from gigaray._error import Error
 from gigaray._functions import (Probe, colours, config, encode, evaluate, load, probe, reconstruct,
                                 scenes, synth)
 from gigaray._light_field import LightField, open
+from gigaray._page import Page
 from gigaray._progress import progress
 from gigaray._result import Result, View
 from gigaray._surfaces import Cloud, Mesh
@@ -32,12 +33,12 @@ This is version {__version__}, built for {config()["python"]} (Python {config()[
 """
 
 __all__ = [
-    "Camera", "Cloud", "Error", "LightField", "Mesh", "Probe", "Result", "View", "colours", "config",
-    "encode", "evaluate", "load", "open", "probe", "progress", "reconstruct", "scenes", "synth"
+    "Camera", "Cloud", "Error", "LightField", "Mesh", "Page", "Probe", "Result", "View", "colours",
+    "config", "encode", "evaluate", "load", "open", "probe", "progress", "reconstruct", "scenes", "synth"
 ]
 
 # Tracebacks name what users catch.
-for _name in (Error, LightField, Result, View, Cloud, Mesh, Probe):
+for _name in (Error, LightField, Result, View, Cloud, Mesh, Page, Probe):
     _name.__module__ = __name__
 
 # Work that Ctrl-C left to itself still uses libraries that the end of the process takes away.

@@ -14,6 +14,7 @@ import numpy.typing as npt
 from gigaray import _gigaray
 from gigaray._error import Error
 from gigaray._light_field import LightField
+from gigaray._page import Page
 from gigaray._surfaces import Cloud, Mesh
 from gigaray._values import Memory, PathLike, Views, memory_bytes, views_text
 
@@ -236,6 +237,19 @@ class Result:
         _require_meshing()
         return Mesh(_gigaray.mesh(self._core, method, self._with_depth(views), min_confidence, voxel,
                                   texture, memory_bytes(memory)))
+
+    def view(self, *, title: str = "gigaray", views: Optional[Views] = None, max_size: int = 1024,
+             compare: Optional[Result] = None, truth: Optional[PathLike] = None,
+             height: int = 760) -> Page:
+        """A page that shows it, as `gigaray view -o page.html`: in a notebook when it is the last
+        of a cell, or `out.view().save("page.html")`.
+
+        views: whose depth is shown; None: nine that stand apart. max_size: px, larger pictures are
+        shrunk. compare: another result of the same views, to wipe. truth: a file or folder with the
+        true disparity, for the errors. height: of the frame in a notebook, px."""
+        chosen = "" if views is None else self._with_depth(views)
+        return Page(_gigaray.page(self._core, title, chosen, max_size,
+                                  compare._core if compare else None, os.fspath(truth or "")), height)
 
     def _with_depth(self, views: Views) -> str:
         return views_text(self._core.views if views == "all" else views)

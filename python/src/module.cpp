@@ -41,6 +41,7 @@ PYBIND11_MODULE(_gigaray, module) {
   bind_light_field(module);
   bind_result(module);
   bind_scenes(module);
+  bind_page(module);
   bind_rendering(module);
   bind_scores(module);
 #if GIGARAY_HAS_MESHING

@@ -39,6 +39,7 @@ void bind_result(py::module_& module);
 void bind_rendering(py::module_& module);
 void bind_surfaces(py::module_& module);
 void bind_scores(py::module_& module);
+void bind_page(py::module_& module);
 void bind_scenes(py::module_& module);
 
 }  // namespace gigaray::python

@@ -8,6 +8,16 @@ if(GIGARAY_DEVELOPER_MODE)
   target_compile_options(gigaray_warnings INTERFACE -Werror)
 endif()
 
+# gigaray_precompile(TARGET HEADER ...)
+# With GIGARAY_PRECOMPILED_HEADERS: what most files of the target include, and more of it. Off by
+# default: ccache knows nothing of such files, and a file that includes too little would pass.
+function(gigaray_precompile target)
+  if(GIGARAY_PRECOMPILED_HEADERS)
+    target_precompile_headers(${target} PRIVATE <Eigen/Geometry> <algorithm> <cmath> <filesystem>
+      <functional> <map> <memory> <optional> <string> <vector> ${ARGN})
+  endif()
+endfunction()
+
 # gigaray_add_library(NAME SOURCES ... DEPENDS ... PRIVATE_DEPENDS ... DIRECTORIES ...)
 # One layer: target gigaray_NAME with alias gigaray::NAME, every header under include/ of the layer and
 # of DIRECTORIES. Beside it, unless GIGARAY_SHARED is off, gigaray::NAME_shared of the same objects,

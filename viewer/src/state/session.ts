@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
+import type { Scene } from '../scene/format';
+import type { SceneData } from '../scene/scene_data';
+import type { ViewStore } from './view_state';
+
+/** What every panel gets. */
+export interface Session {
+  data: SceneData;
+  scene: Scene;
+  store: ViewStore;
+  /** Codes of values that colours, sliders and plots span: [far end, near end]. */
+  usual: [number, number];
+  /** Says in one line what went wrong with a part of the scene; null takes it back. */
+  report: (line: string | null) => void;
+}
