@@ -54,6 +54,7 @@ Shown shown_result(const Settings& settings, const RunControl& control) {
                     fs::is_directory(path) ? options_of_file(path) : auto_options(),
                     settings.device};
   probes.options.disparity = depth->range();
+  if (!request.is_live) request.curves = SceneCurves{probes.options, {"opencl", settings.device}};
   return {path.filename().string(),
           [depth, request, &control](const TakeSceneFile& take) {
             return view_scene(*depth, request, take, control);

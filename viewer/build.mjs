@@ -1,37 +1,37 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // node build.mjs --outdir=DIR: viewer.js, viewer.css and the template index.html.
 
-import { copyFileSync, mkdirSync, readFileSync } from 'node:fs';
-import { dirname, join } from 'node:path';
-import { fileURLToPath } from 'node:url';
-import { build } from 'esbuild';
+import { copyFileSync, mkdirSync, readFileSync } from "node:fs";
+import { dirname, join } from "node:path";
+import { fileURLToPath } from "node:url";
+import { build } from "esbuild";
 
 const here = dirname(fileURLToPath(import.meta.url));
-const argument = process.argv.find((text) => text.startsWith('--outdir='));
-const outdir = argument === undefined ? join(here, 'build') : argument.slice('--outdir='.length);
+const argument = process.argv.find((text) => text.startsWith("--outdir="));
+const outdir = argument === undefined ? join(here, "build") : argument.slice("--outdir=".length);
 mkdirSync(outdir, { recursive: true });
 
 await build({
-  entryPoints: { viewer: join(here, 'src/main.ts') },
+  entryPoints: { viewer: join(here, "src/main.ts") },
   absWorkingDir: here,
   outdir,
   bundle: true,
   minify: true,
-  format: 'iife',
-  target: 'es2020',
-  charset: 'ascii',
-  legalComments: 'eof',
-  logLevel: 'warning',
+  format: "iife",
+  target: "es2020",
+  charset: "ascii",
+  legalComments: "eof",
+  logLevel: "warning",
 });
-copyFileSync(join(here, 'src/index.html'), join(outdir, 'index.html'));
+copyFileSync(join(here, "src/index.html"), join(outdir, "index.html"));
 
 // The page carries the bundle inline: nothing in it may end the element around it.
 for (const [file, end] of [
-  ['viewer.js', '</script'],
-  ['viewer.js', '<!--'],
-  ['viewer.css', '</style'],
+  ["viewer.js", "</script"],
+  ["viewer.js", "<!--"],
+  ["viewer.css", "</style"],
 ]) {
-  if (readFileSync(join(outdir, file), 'utf8').toLowerCase().includes(end)) {
+  if (readFileSync(join(outdir, file), "utf8").toLowerCase().includes(end)) {
     console.error(`${file} holds ${end}, which would break the page`);
     process.exit(1);
   }

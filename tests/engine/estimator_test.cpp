@@ -89,6 +89,28 @@ TEST(Estimators, GiveWhatTheOneOffGives) {
   EXPECT_THROW(Estimator::of({"none", ""}), Error);
 }
 
+TEST(Estimators, ProbeManyPixelsAsOneByOne) {
+  const RunControl control;
+  const std::vector<PixelIndex> pixels{{20, 10}, {0, 0}, {22, 10}, {5, 17}, {20, 10}};
+  for (const Job& job : {Job::row(), Job::grid()}) {
+    const Estimator estimator;
+    const auto together = estimator.probe(job.light_field, job.options, 2, pixels, control);
+    ASSERT_EQ(together.size(), pixels.size());
+    for (std::size_t i = 0; i < pixels.size(); ++i) {
+      const ScoreCurve alone =
+          estimator.probe(job.light_field, job.options, 2, pixels[i].u, pixels[i].v, control);
+      EXPECT_EQ(together[i].scores, alone.scores) << i;
+      EXPECT_EQ(together[i].disparity, alone.disparity) << i;
+      EXPECT_EQ(together[i].confidence, alone.confidence) << i;
+    }
+  }
+  EXPECT_TRUE(
+      Estimator().probe(Job::row().light_field, Job::row().options, 2, {}, control).empty());
+  EXPECT_THROW(
+      Estimator().probe(Job::row().light_field, Job::row().options, 2, {{1, 1}, {-1, 0}}, control),
+      Error);
+}
+
 TEST(Estimators, OfOneDeviceWorkAtOnce) {
   const Job row = Job::row(), grid = Job::grid();
   const DepthResult row_alone = run(Estimator(), row), grid_alone = run(Estimator(), grid);

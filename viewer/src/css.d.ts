@@ -1,2 +1,2 @@
 // SPDX-License-Identifier: BSD-3-Clause
-declare module '*.css';
+declare module "*.css";

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // `window.gigaray`: the page's state for tests, and for readers who open the console.
 
-import type { Pixels } from './gl/stage';
-import type { Page } from './page';
-import type { Scene } from './scene/format';
-import { type PixelValues, pixelValues } from './state/pixel_values';
-import type { ViewState } from './state/view_state';
+import type { Pixels } from "./gl/stage";
+import type { Page } from "./page";
+import type { Scene } from "./scene/format";
+import { type PixelValues, pixelValues } from "./state/pixel_values";
+import type { ViewState } from "./state/view_state";
 
 export interface Handle {
   scene: Scene;
@@ -31,13 +31,13 @@ export interface Handle {
 
 declare global {
   interface Window {
-    gigaray?: Partial<Handle> & { ready: Promise<void> };
+    gigaray: Handle & { ready: Promise<void> };
   }
 }
 
 /** Before the scene is read there is `ready` alone; it fails with the line that the page shows. */
 export function publishFailure(ready: Promise<void>): void {
-  window.gigaray = { ready };
+  window.gigaray = { ready } as Window["gigaray"];
 }
 
 /** Adds the rest of the handle. */

@@ -173,7 +173,7 @@ LightField open_or_find_cameras(InputRequest input, const RunControl& control) {
   const bool can_find = !input.colmap_folder.empty();
   const bool must_find = can_find && input.find_cameras;
   if (const std::string twice = why_twice(input.path);
-      !twice.empty() && !(must_find && twice.find("--find-cameras") != std::string::npos))
+      !twice.empty() && !(must_find && twice.find("`find_cameras`") != std::string::npos))
     throw Error(ErrorCode::kBadInput, twice);
   const std::string why = must_find ? "" : why_walk(input, control);
   if (!must_find && why.empty()) return open_as_asked(input);

@@ -24,6 +24,7 @@
 #include "gigaray/workflows/scene_truth.h"
 #include "gigaray/workflows/view_list.h"
 #include "scene_maps.h"
+#include "scene_scores.h"
 
 namespace gigaray {
 namespace {
@@ -126,6 +127,7 @@ class SceneMaker {
   ordered_json inverse_depth_json() const;
   ordered_json views_json();
   ordered_json compare_json();
+  ordered_json scores_json();
   void take_file(ordered_json& scene, const char* field, const fs::path& path,
                  const std::string& name);
 
@@ -261,6 +263,13 @@ ordered_json SceneMaker::views_json() {
   return views;
 }
 
+ordered_json SceneMaker::scores_json() {
+  const int view = depth_ ? depth_->top_view() : centre_view(full_);
+  const Camera shown = camera(view);
+  return scene_scores(full_, *request_.curves, view, shown.width, shown.height, scale(), take_,
+                      control_);
+}
+
 ordered_json SceneMaker::compare_json() {
   ordered_json maps = ordered_json::object();
   for (const auto& [view, shown] : others_)
@@ -305,7 +314,7 @@ ordered_json SceneMaker::scene(const std::string& name) {
       {"views", views_json()},
       {"segment",
        depth_ ? ordered_json{{"result", shell_word(depth_->name())}} : ordered_json(nullptr)},
-      {"scores", nullptr},
+      {"scores", request_.curves ? scores_json() : ordered_json(nullptr)},
       {"compare", request_.compare ? compare_json() : ordered_json(nullptr)},
       {"live", request_.is_live}};
   if (!request_.truth.empty()) {

@@ -298,7 +298,7 @@ std::string why_twice(const fs::path& folder) {
   if (2 * series[1].pictures.size() <= series[0].pictures.size()) return {};
   return folder.string() + ": holds more than one series of pictures, " + series[0].first_name() +
          " … and " + series[1].first_name() +
-         " …; keep one per folder (--find-cameras of `gigaray depth` takes them as photographs of "
+         " …; keep one per folder (`find_cameras` takes them as photographs of "
          "one place)";
 }
 

@@ -120,12 +120,12 @@ LightField DepthResult::open_input(const fs::path& input) const {
   const auto bad = [&](const std::string& what) {
     return Error(ErrorCode::kBadInput, place.string() + ": " + what +
                                            "; name the light field that " + folder_.string() +
-                                           " was computed of with --input");
+                                           " was computed of as `input`");
   };
   if (place.empty())
     throw Error(ErrorCode::kBadInput, folder_.string() +
                                           ": was computed of pictures in memory; name the light "
-                                          "field with --input");
+                                          "field as `input`");
   std::error_code error;
   if (!fs::exists(place, error)) throw bad("no such file or folder");
   LightField all = open_light_field(place, opened_with_);

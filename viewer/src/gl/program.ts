@@ -48,13 +48,13 @@ export class Program {
     let unit = 0;
     for (const [name, value] of Object.entries(uniforms)) {
       const location = this.location(name);
-      if (typeof value === 'number') gl.uniform1f(location, value);
+      if (typeof value === "number") gl.uniform1f(location, value);
       else if (Array.isArray(value)) this.setVector(location, value);
-      else if ('int' in value) gl.uniform1i(location, value.int);
-      else if ('uint' in value) gl.uniform1ui(location, value.uint);
+      else if ("int" in value) gl.uniform1i(location, value.int);
+      else if ("uint" in value) gl.uniform1ui(location, value.uint);
       // Row major here, column major there: `transpose` is allowed in WebGL2.
-      else if ('mat3' in value) gl.uniformMatrix3fv(location, true, value.mat3);
-      else if ('texture' in value) {
+      else if ("mat3" in value) gl.uniformMatrix3fv(location, true, value.mat3);
+      else if ("texture" in value) {
         gl.activeTexture(gl.TEXTURE0 + unit);
         gl.bindTexture(gl.TEXTURE_2D, value.texture);
         gl.uniform1i(location, unit++);

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
-import type { Transform } from '../math/camera';
-import type { Interval } from '../math/interval';
-import type { Range } from '../scene/format';
-import { Program, type Uniforms } from './program';
-import * as shaders from './shaders';
-import { Target, type TargetFormat } from './target';
-import { TextureCache } from './textures';
+import type { Transform } from "../math/camera";
+import type { Interval } from "../math/interval";
+import type { Range } from "../scene/format";
+import { Program, type Uniforms } from "./program";
+import * as shaders from "./shaders";
+import { Target, type TargetFormat } from "./target";
+import { TextureCache } from "./textures";
 
 /** Textures of pictures and maps that are kept on the graphics card. */
 const TEXTURE_BYTES = 512 << 20;
@@ -15,7 +15,7 @@ const TEXTURE_BYTES = 512 << 20;
 const POINT_SIZE_PX = 1.5;
 
 export interface ComposeInput {
-  /** Linear light, or a target of sums. */
+  /** As it is stored, or a target of sums of linear light. */
   picture: WebGLTexture;
   isSum: boolean;
   value: WebGLTexture | null;
@@ -51,10 +51,12 @@ export interface WarpInput {
 export class Renderer {
   readonly textures: TextureCache;
   private readonly programs: Record<
-    'compose' | 'mask' | 'warp' | 'combine' | 'refocus' | 'present',
+    "compose" | "mask" | "warp" | "combine" | "refocus" | "present",
     Program
   >;
   private readonly targets = new Map<string, Target>();
+  private readonly composedNames = ["composed 0", "composed 1", "composed 2", "composed 3"];
+  private readonly composedKeys = ["", "", "", ""];
   private readonly noCodes: WebGLTexture;
 
   constructor(readonly gl: WebGL2RenderingContext) {
@@ -68,7 +70,7 @@ export class Renderer {
       refocus: whole(shaders.REFOCUS),
       present: whole(shaders.PRESENT),
     };
-    this.noCodes = this.textures.codes('none', new Uint8Array(1), 1, 1);
+    this.noCodes = this.textures.codes("none", new Uint8Array(1), 1, 1);
     gl.disable(gl.DITHER);
   }
 
@@ -80,6 +82,18 @@ export class Renderer {
     const target = new Target(this.gl, width, height, format);
     this.targets.set(name, target);
     return target;
+  }
+
+  /** The target of one composed view: that with the key where there is one, else the oldest. */
+  composed(key: string, width: number, height: number): { target: Target; isDrawn: boolean } {
+    const kept = this.composedKeys.indexOf(key);
+    const slot = Math.max(kept, 0);
+    const [name] = this.composedNames.splice(slot, 1);
+    this.composedKeys.splice(slot, 1);
+    // The last one was used last.
+    this.composedNames.push(name!);
+    this.composedKeys.push(key);
+    return { target: this.target(name!, width, height, "color"), isDrawn: kept >= 0 };
   }
 
   /** Picture with overlay, interval and wipe. */
@@ -119,45 +133,59 @@ export class Renderer {
   }
 
   /**
-   * The views as seen from the viewpoint that their transforms go to. `tolerance` is how far values
-   * of one surface may be apart, in the unit of values.
+   * The views as seen from the viewpoint that their transforms go to, one point for `stride` × `stride`
+   * pixels. `size` is that of the viewpoint's picture, px; the target may be smaller.
    */
-  warp(target: Target, inputs: WarpInput[], value: Range, parallel: boolean): void {
+  warp(
+    target: Target,
+    inputs: WarpInput[],
+    value: Range,
+    parallel: boolean,
+    stride: number,
+    size: [number, number],
+  ): void {
     const { gl } = this;
     const span = value.max - value.min;
     // Of posed cameras the inverse depth changes on the way; of parallel ones it stays.
     const range = [value.min - 0.01 * span, parallel ? value.max + 0.01 * span : 2 * value.max];
     const warped = inputs.slice(0, 3).map((input, idx) => {
-      const into = this.target(`warped ${idx}`, target.width, target.height, 'color and depth');
+      const into = this.target(`warped ${idx}`, target.width, target.height, "color and depth");
+      const columns = Math.ceil(input.width / stride);
       into.clear();
       gl.enable(gl.DEPTH_TEST);
       this.programs.warp.use({
         value: { texture: input.value },
         colors: { texture: input.colors },
-        width: { int: input.width },
+        columns: { int: columns },
+        stride: { int: stride },
         matrix: { mat3: input.transform.matrix },
         vector: input.transform.vector,
         value_range: [value.min, value.max],
         depth_range: range,
-        target_size: [target.width, target.height],
+        // The whole picture's, whatever the target's: a coarse one shows the same.
+        target_size: size,
         point_size: POINT_SIZE_PX,
       });
-      gl.drawArrays(gl.POINTS, 0, input.width * input.height);
+      gl.drawArrays(gl.POINTS, 0, columns * Math.ceil(input.height / stride));
       gl.disable(gl.DEPTH_TEST);
       return into;
     });
     const at = (idx: number) => warped[Math.min(idx, warped.length - 1)]!;
     target.bind();
-    this.drawWhole(this.programs.combine, {
-      colors_0: { texture: at(0).color },
-      colors_1: { texture: at(1).color },
-      colors_2: { texture: at(2).color },
-      depths_0: { texture: at(0).depth! },
-      depths_1: { texture: at(1).depth! },
-      depths_2: { texture: at(2).depth! },
-      weights: [0, 1, 2].map((idx) => inputs[idx]?.weight ?? 0),
-      tolerance: 0.02,
-    }, { size: [target.width, target.height] });
+    this.drawWhole(
+      this.programs.combine,
+      {
+        colors_0: { texture: at(0).color },
+        colors_1: { texture: at(1).color },
+        colors_2: { texture: at(2).color },
+        depths_0: { texture: at(0).depth! },
+        depths_1: { texture: at(1).depth! },
+        depths_2: { texture: at(2).depth! },
+        weights: [0, 1, 2].map((idx) => inputs[idx]?.weight ?? 0),
+        tolerance: 0.02,
+      },
+      { size: [target.width, target.height] },
+    );
   }
 
   /** Adds what a picture shows at `value` from the pixels of the viewpoint; the target is of sums. */
@@ -199,7 +227,11 @@ export class Renderer {
     });
   }
 
-  private drawWhole(program: Program, uniforms: Uniforms, ints: Record<string, number[]> = {}): void {
+  private drawWhole(
+    program: Program,
+    uniforms: Uniforms,
+    ints: Record<string, number[]> = {},
+  ): void {
     program.use(uniforms);
     for (const [name, value] of Object.entries(ints)) program.setInts(name, value);
     this.gl.drawArrays(this.gl.TRIANGLES, 0, 3);

@@ -31,7 +31,7 @@ bool in_interval(uint code) {
 
 /** Picture (or the mean of refocus), overlay, interval and wipe of one view. */
 export const COMPOSE = `${HEAD}${ENCODE}${IN_INTERVAL}
-uniform sampler2D picture;         // linear light; with 'sums': sums with their count in alpha
+uniform sampler2D picture;         // sRGB; with 'sums' linear light summed, with its count in alpha
 uniform usampler2D value;
 uniform usampler2D other_value;
 uniform usampler2D overlay;
@@ -48,9 +48,8 @@ out vec4 result;
 
 void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
-  vec4 light = texelFetch(picture, pixel, 0);
-  if (sums == 1) light = light.a > 0.0 ? light / light.a : vec4(0.0);
-  vec3 color = srgb_of_linear(light.rgb);
+  vec4 found = texelFetch(picture, pixel, 0);
+  vec3 color = sums == 0 ? found.rgb : srgb_of_linear(found.rgb / max(found.a, 1.0));
   bool other = float(pixel.x) >= divider;
   uint code = other ? texelFetch(other_value, pixel, 0).r : texelFetch(value, pixel, 0).r;
   if (overlay_on == 1) {
@@ -77,7 +76,8 @@ void main() {
 export const WARP_POINTS = `${HEAD}
 uniform usampler2D value;
 uniform sampler2D colors;
-uniform int width;
+uniform int columns;               // points of a row
+uniform int stride;                // px between points
 uniform mat3 matrix;               // (U, V, Z) = matrix (u, v, 1) + value * vector
 uniform vec3 vector;
 uniform vec2 value_range;          // of the code
@@ -87,7 +87,8 @@ uniform float point_size;          // px
 flat out vec3 color;
 
 void main() {
-  ivec2 pixel = ivec2(gl_VertexID % width, gl_VertexID / width);
+  ivec2 pixel = ivec2(gl_VertexID % columns, gl_VertexID / columns) * stride + stride / 2;
+  pixel = min(pixel, textureSize(value, 0) - 1);
   uint code = texelFetch(value, pixel, 0).r;
   float w = value_range.x + (float(code) - 1.0) * (value_range.y - value_range.x) / 65534.0;
   vec3 place = matrix * vec3(pixel, 1.0) + w * vector;
@@ -174,7 +175,10 @@ void main() {
   if (seen.z <= 0.0) discard;
   vec2 place = seen.xy / seen.z;
   vec2 last = vec2(size - 1);
-  if (any(lessThan(place, vec2(0.0))) || any(greaterThan(place, last))) discard;
+  // Single precision may put what lies on the border beside it.
+  const float slack = 1e-3;
+  if (any(lessThan(place, vec2(-slack))) || any(greaterThan(place, last + slack))) discard;
+  place = clamp(place, vec2(0.0), last);
   // By hand: the sampler's weights have 8 bits.
   ivec2 corner = min(ivec2(place), max(size - 2, 0));
   vec2 rest = place - vec2(corner);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
-import { newTexture } from './textures';
+import { newTexture } from "./textures";
 
-export type TargetFormat = 'color' | 'color and depth' | 'sums';
+export type TargetFormat = "color" | "color and depth" | "sums";
 
 /** A picture that is drawn to and then read as a texture; its top row is the first one. */
 export class Target {
@@ -19,9 +19,9 @@ export class Target {
     this.framebuffer = gl.createFramebuffer() as WebGLFramebuffer;
     gl.bindFramebuffer(gl.FRAMEBUFFER, this.framebuffer);
     this.color = newTexture(gl);
-    gl.texStorage2D(gl.TEXTURE_2D, 1, format === 'sums' ? sumFormat(gl) : gl.RGBA8, width, height);
+    gl.texStorage2D(gl.TEXTURE_2D, 1, format === "sums" ? sumFormat(gl) : gl.RGBA8, width, height);
     gl.framebufferTexture2D(gl.FRAMEBUFFER, gl.COLOR_ATTACHMENT0, gl.TEXTURE_2D, this.color, 0);
-    if (format === 'color and depth') {
+    if (format === "color and depth") {
       this.depth = newTexture(gl);
       gl.texStorage2D(gl.TEXTURE_2D, 1, gl.DEPTH_COMPONENT24, width, height);
       gl.framebufferTexture2D(gl.FRAMEBUFFER, gl.DEPTH_ATTACHMENT, gl.TEXTURE_2D, this.depth, 0);
@@ -61,9 +61,9 @@ export class Target {
 
 /** The finest format that sums can be blended into. */
 function sumFormat(gl: WebGL2RenderingContext): number {
-  const full = gl.getExtension('EXT_color_buffer_float') !== null;
-  const blends = gl.getExtension('EXT_float_blend') !== null;
+  const full = gl.getExtension("EXT_color_buffer_float") !== null;
+  const blends = gl.getExtension("EXT_float_blend") !== null;
   if (full && blends) return gl.RGBA32F;
-  if (full || gl.getExtension('EXT_color_buffer_half_float') !== null) return gl.RGBA16F;
-  throw new Error('this browser cannot draw to floating-point pictures, which refocus needs');
+  if (full || gl.getExtension("EXT_color_buffer_half_float") !== null) return gl.RGBA16F;
+  throw new Error("this browser cannot draw to floating-point pictures, which refocus needs");
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
-import type { Codes } from '../scene/scene_data';
+import type { Codes } from "../scene/scene_data";
 
 /** Textures of pictures and maps by key; beyond a budget the one used longest ago is dropped. */
 export class TextureCache {
@@ -12,12 +12,14 @@ export class TextureCache {
     private readonly budget: number,
   ) {}
 
-  /** A picture that samplers read as linear light. */
+  /** A picture as it is stored, for showing it. */
   picture(key: string, bitmap: ImageBitmap): WebGLTexture {
-    const { gl } = this;
-    return this.get(key, 4 * bitmap.width * bitmap.height, () =>
-      gl.texImage2D(gl.TEXTURE_2D, 0, gl.SRGB8_ALPHA8, gl.RGBA, gl.UNSIGNED_BYTE, bitmap),
-    );
+    return this.rgba(`picture ${key}`, bitmap, this.gl.RGBA8);
+  }
+
+  /** A picture that samplers read as linear light, for means. */
+  light(key: string, bitmap: ImageBitmap): WebGLTexture {
+    return this.rgba(`light ${key}`, bitmap, this.gl.SRGB8_ALPHA8);
   }
 
   /** Codes as integers, so that nothing is rounded. */
@@ -46,6 +48,13 @@ export class TextureCache {
         gl.UNSIGNED_BYTE,
         rgba,
       ),
+    );
+  }
+
+  private rgba(key: string, bitmap: ImageBitmap, format: number): WebGLTexture {
+    const { gl } = this;
+    return this.get(key, 4 * bitmap.width * bitmap.height, () =>
+      gl.texImage2D(gl.TEXTURE_2D, 0, format, gl.RGBA, gl.UNSIGNED_BYTE, bitmap),
     );
   }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
-import type { CameraEntry } from '../scene/format';
+import type { CameraEntry } from "../scene/format";
 
 export type Vec3 = [number, number, number];
 /** 3 × 3, row major. */
@@ -16,9 +16,7 @@ export function multiply(a: Mat3, b: Mat3): Mat3 {
   const c: Mat3 = [];
   for (let row = 0; row < 3; row++) {
     for (let col = 0; col < 3; col++) {
-      c.push(
-        a[3 * row]! * b[col]! + a[3 * row + 1]! * b[3 + col]! + a[3 * row + 2]! * b[6 + col]!,
-      );
+      c.push(a[3 * row]! * b[col]! + a[3 * row + 1]! * b[3 + col]! + a[3 * row + 2]! * b[6 + col]!);
     }
   }
   return c;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The 16-bit code of value and error maps: 0 is no estimate, 1 … 65535 is min … max in equal steps.
 
-import type { Range } from '../scene/format';
+import type { Range } from "../scene/format";
 
 /** Codes are 1 … MAX_CODE. */
 export const MAX_CODE = 65535;
@@ -31,7 +31,11 @@ export function clampCode(code: number): number {
  * Undoes the left differences of 16-bit codes: all high bytes, then all low bytes, every row on its
  * own and its first column against 0.
  */
-export function decodeCodes16(bytes: Uint8Array, width: number, height: number): Uint16Array<ArrayBuffer> {
+export function decodeCodes16(
+  bytes: Uint8Array,
+  width: number,
+  height: number,
+): Uint16Array<ArrayBuffer> {
   const count = width * height;
   const codes = new Uint16Array(count);
   for (let v = 0; v < height; v++) {
@@ -45,7 +49,11 @@ export function decodeCodes16(bytes: Uint8Array, width: number, height: number):
 }
 
 /** Undoes the left differences of 8-bit codes, every row on its own and its first column against 0. */
-export function decodeCodes8(bytes: Uint8Array, width: number, height: number): Uint8Array<ArrayBuffer> {
+export function decodeCodes8(
+  bytes: Uint8Array,
+  width: number,
+  height: number,
+): Uint8Array<ArrayBuffer> {
   const codes = new Uint8Array(width * height);
   for (let v = 0; v < height; v++) {
     let code = 0;

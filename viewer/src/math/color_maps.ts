@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Colour maps as 256 RGBA entries for a texture and for legends.
 
-export type ColorMapName = 'turbo' | 'viridis' | 'signed' | 'levels';
+export type ColorMapName = "turbo" | "viridis" | "signed" | "levels";
 
 const SIZE = 256;
 
@@ -35,17 +35,20 @@ export function colorMap(name: ColorMapName): Uint8Array<ArrayBuffer> {
 function entry(name: ColorMapName, idx: number): number[] {
   const x = idx / (SIZE - 1);
   switch (name) {
-    case 'turbo':
-      return TURBO.map((powers) => polynomial(powers, x));
-    case 'viridis':
+    case "turbo":
+      // Without its darkest ends, which look like shadow.
+      return TURBO.map((powers) => polynomial(powers, 0.05 + 0.89 * x));
+    case "viridis":
       return VIRIDIS.map((powers) => polynomial(powers, x));
-    case 'signed': {
+    case "signed": {
       // Blue below zero, grey at zero, red above.
       const y = 2 * x - 1;
       const grey = 0.86 * (1 - Math.abs(y));
-      return y < 0 ? [grey, grey - 0.35 * y, grey - 0.85 * y] : [grey + 0.85 * y, grey + 0.2 * y, grey];
+      return y < 0
+        ? [grey, grey - 0.35 * y, grey - 0.85 * y]
+        : [grey + 0.85 * y, grey + 0.2 * y, grey];
     }
-    case 'levels': {
+    case "levels": {
       const color = LEVELS[idx % LEVELS.length]!;
       return [color >> 16, (color >> 8) & 255, color & 255].map((value) => value / 255);
     }
@@ -62,5 +65,5 @@ export function cssGradient(rgba: Uint8Array): string {
   for (let i = 0; i < SIZE; i += 17) {
     stops.push(`rgb(${rgba[4 * i]} ${rgba[4 * i + 1]} ${rgba[4 * i + 2]})`);
   }
-  return `linear-gradient(to right, ${stops.join(', ')})`;
+  return `linear-gradient(to right, ${stops.join(", ")})`;
 }

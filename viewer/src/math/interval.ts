@@ -2,16 +2,14 @@
 // A depth interval in codes. Thresholds lie on half codes, so that no rounding of a map's values
 // decides about a pixel: the mask of the page is that of `gigaray segment` to the bit.
 
-import type { Range } from '../scene/format';
-import { clampCode, codeOfValue, MAX_CODE, valueOfCode } from './codes';
+import type { Range } from "../scene/format";
+import { clampCode, codeOfValue, MAX_CODE, valueOfCode } from "./codes";
 
 /** The codes far ≤ code ≤ near belong to it; both are integers in 1 … MAX_CODE. */
 export interface Interval {
   near: number;
   far: number;
 }
-
-export const WHOLE_INTERVAL: Interval = { near: MAX_CODE, far: 1 };
 
 /** The interval of what lies within `delta` (in the unit of values, ≥ 0) of the value of `code`. */
 export function intervalAround(code: number, delta: number, range: Range): Interval {
@@ -49,10 +47,10 @@ export function plainDecimal(value: number): string {
   const text = String(value);
   const match = /^(-?)(\d+)(?:\.(\d+))?e([+-]\d+)$/.exec(text);
   if (match === null) return text;
-  const [, sign, whole, fraction = '', exponent] = match;
+  const [, sign, whole, fraction = "", exponent] = match;
   const digits = whole! + fraction;
   const point = whole!.length + Number(exponent);
-  if (point <= 0) return `${sign}0.${'0'.repeat(-point)}${digits}`;
-  if (point >= digits.length) return `${sign}${digits}${'0'.repeat(point - digits.length)}`;
+  if (point <= 0) return `${sign}0.${"0".repeat(-point)}${digits}`;
+  if (point >= digits.length) return `${sign}${digits}${"0".repeat(point - digits.length)}`;
   return `${sign}${digits.slice(0, point)}.${digits.slice(point)}`;
 }

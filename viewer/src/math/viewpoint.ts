@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Where the light field is seen from: at a view, or somewhere between.
 
-import { type CameraEntry, isParallel, type Scene } from '../scene/format';
-import { distance, position, type Transform, transformBetween } from './camera';
+import { type CameraEntry, isParallel, type Scene } from "../scene/format";
+import { distance, position, type Transform, transformBetween } from "./camera";
 
 export interface Viewpoint {
   /** View steps. */
@@ -110,7 +110,11 @@ export function neighbour(scene: Scene, view: number, right: number, down: numbe
 }
 
 /** Of a view as seen from another: to the right and down. */
-function offsetOf(scene: Scene, from: Scene['views'][number], to: Scene['views'][number]): number[] {
+function offsetOf(
+  scene: Scene,
+  from: Scene["views"][number],
+  to: Scene["views"][number],
+): number[] {
   if (isParallel(scene)) return [to.s - from.s, to.t - from.t];
   const place = position(to.camera);
   const { rotation: r, translation: t } = from.camera;

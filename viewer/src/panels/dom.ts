@@ -26,14 +26,19 @@ export function newId(): string {
 /** A titled group of controls. */
 export function panel(title: string, ...children: Child[]): HTMLElement {
   const id = newId();
-  return el('section', { class: 'panel', 'aria-labelledby': id }, el('h2', { id }, title), ...children);
+  return el(
+    "section",
+    { class: "panel", "aria-labelledby": id },
+    el("h2", { id }, title),
+    ...children,
+  );
 }
 
 export interface SliderOptions {
   label: string;
   min: number;
   max: number;
-  step: number | 'any';
+  step: number | "any";
   /** Keys move it by this where the step is 'any'. */
   onInput: (value: number) => void;
   /** What is written beside the label. */
@@ -49,24 +54,30 @@ export interface Slider {
 /** A labelled slider with its value in words. */
 export function slider(options: SliderOptions): Slider {
   const id = newId();
-  const input = el('input', {
+  const input = el("input", {
     id,
-    type: 'range',
+    type: "range",
     min: String(options.min),
     max: String(options.max),
     step: String(options.step),
   });
-  const output = el('output', { for: id });
+  const output = el("output", { for: id });
   const write = () => {
     output.textContent = options.format?.(input.valueAsNumber) ?? input.value;
-    input.setAttribute('aria-valuetext', output.textContent);
+    input.setAttribute("aria-valuetext", output.textContent);
   };
-  input.addEventListener('input', () => {
+  input.addEventListener("input", () => {
     write();
     options.onInput(input.valueAsNumber);
   });
   return {
-    element: el('div', { class: 'row slider' }, el('label', { for: id }, options.label), output, input),
+    element: el(
+      "div",
+      { class: "row slider" },
+      el("label", { for: id }, options.label),
+      output,
+      input,
+    ),
     input,
     set: (value) => {
       input.value = String(value);
@@ -82,9 +93,9 @@ export interface Toggle {
 
 /** A labelled checkbox. */
 export function checkbox(label: string, onChange: (on: boolean) => void): Toggle {
-  const input = el('input', { type: 'checkbox' });
-  input.addEventListener('change', () => onChange(input.checked));
-  return { element: el('label', { class: 'check' }, input, label), input };
+  const input = el("input", { type: "checkbox" });
+  input.addEventListener("change", () => onChange(input.checked));
+  return { element: el("label", { class: "check" }, input, label), input };
 }
 
 /** One of several, as a row of radio buttons. */
@@ -94,15 +105,17 @@ export function choice<T extends string>(
   onChange: (value: T) => void,
 ): { element: HTMLElement; set: (value: T) => void } {
   const name = newId();
-  const inputs = options.map(({ value }) => el('input', { type: 'radio', name, value }));
+  const inputs = options.map(({ value }) => el("input", { type: "radio", name, value }));
   inputs.forEach((input, idx) => {
-    input.addEventListener('change', () => onChange(options[idx]!.value));
+    input.addEventListener("change", () => onChange(options[idx]!.value));
   });
-  const labels = options.map(({ label }, idx) => el('label', {}, inputs[idx]!, el('span', {}, label)));
+  const labels = options.map(({ label }, idx) =>
+    el("label", {}, inputs[idx]!, el("span", {}, label)),
+  );
   const element = el(
-    'fieldset',
-    { class: 'choice' },
-    el('legend', { class: 'hidden' }, legend),
+    "fieldset",
+    { class: "choice" },
+    el("legend", { class: "hidden" }, legend),
     ...labels,
   );
   return {
@@ -119,9 +132,9 @@ export function numberField(
   attributes: Record<string, string>,
   onChange: (value: number) => void,
 ): { element: HTMLElement; input: HTMLInputElement } {
-  const input = el('input', { type: 'number', ...attributes });
-  input.addEventListener('change', () => {
+  const input = el("input", { type: "number", ...attributes });
+  input.addEventListener("change", () => {
     if (Number.isFinite(input.valueAsNumber)) onChange(input.valueAsNumber);
   });
-  return { element: el('label', { class: 'number' }, label, input), input };
+  return { element: el("label", { class: "number" }, label, input), input };
 }

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The picture: drag and arrow keys move the viewpoint, a click picks a pixel, the wheel enlarges.
 
-import { intervalAround } from '../math/interval';
-import { isParallel } from '../scene/format';
-import { oneLine } from '../scene/scene_error';
-import type { Moves } from '../state/moves';
-import type { Session } from '../state/session';
-import type { PixelOfView } from '../state/view_state';
-import { el } from './dom';
+import { intervalAround } from "../math/interval";
+import { isParallel } from "../scene/format";
+import type { Moves } from "../state/moves";
+import type { Session } from "../state/session";
+import type { PixelOfView } from "../state/view_state";
+import { el } from "./dom";
 
 /** A pointer that moves less is a click, px of the screen. */
 const CLICK_PX = 4;
@@ -23,8 +22,8 @@ const ARROWS: Record<string, [number, number]> = {
 export class PicturePanel {
   readonly element: HTMLElement;
   private readonly frame: HTMLElement;
-  private readonly marker = el('div', { class: 'marker', hidden: '' });
-  private readonly divider = el('div', { class: 'divider', hidden: '' });
+  private readonly marker = el("div", { class: "marker", hidden: "" });
+  private readonly divider = el("div", { class: "divider", hidden: "" });
   private zoom = 1;
   /** Middle of what is enlarged, 0 … 1 of the picture. */
   private middle: [number, number] = [0.5, 0.5];
@@ -35,18 +34,18 @@ export class PicturePanel {
     private readonly moves: Moves,
   ) {
     canvas.tabIndex = 0;
-    canvas.setAttribute('role', 'application');
+    canvas.setAttribute("role", "application");
     canvas.setAttribute(
-      'aria-label',
-      'Picture. Arrow keys go to the next view, Shift with arrow keys moves the picked pixel, plus and minus enlarge.',
+      "aria-label",
+      "Picture. Arrow keys go to the next view, Shift with arrow keys moves the picked pixel, plus and minus enlarge.",
     );
-    this.frame = el('div', { class: 'frame' }, canvas, this.divider, this.marker);
-    this.element = el('div', { class: 'picture' }, this.frame);
+    this.frame = el("div", { class: "frame" }, canvas, this.divider, this.marker);
+    this.element = el("div", { class: "picture" }, this.frame);
     new ResizeObserver(() => this.layOut()).observe(this.element);
     this.listen();
-    session.store.watch(['viewpoint'], () => this.layOut());
-    session.store.watch(['picked', 'viewpoint'], () => this.placeMarker());
-    session.store.watch(['wipeOn', 'wipe'], ({ wipeOn, wipe }) => {
+    session.store.watch(["viewpoint"], () => this.layOut());
+    session.store.watch(["picked", "viewpoint"], () => this.placeMarker());
+    session.store.watch(["wipeOn", "wipe"], ({ wipeOn, wipe }) => {
       this.divider.hidden = !wipeOn;
       this.divider.style.left = `${100 * wipe}%`;
     });
@@ -60,8 +59,8 @@ export class PicturePanel {
     const v = Math.min(height - 1, Math.max(0, Math.round(pixel.v)));
     store.set({ picked: { view: pixel.view, u, v } });
     const { click, delta } = store.get();
-    if (click !== 'mask' || !data.hasMap(pixel.view, 'value')) return;
-    const code = (await data.map(pixel.view, 'value'))[v * width + u]!;
+    if (click !== "mask" || !data.hasMap(pixel.view, "value")) return;
+    const code = (await data.map(pixel.view, "value"))[v * width + u]!;
     if (code === 0) return;
     store.set({ intervalOn: true, interval: intervalAround(code, delta, scene.value) });
   }
@@ -69,15 +68,16 @@ export class PicturePanel {
   private listen(): void {
     const { canvas, session } = this;
     const { store } = session;
-    let press: { x: number; y: number; from: ReturnType<typeof store.get>['viewpoint'] } | null = null;
+    let press: { x: number; y: number; from: ReturnType<typeof store.get>["viewpoint"] } | null =
+      null;
     let dragged = false;
-    canvas.addEventListener('pointerdown', (event) => {
+    canvas.addEventListener("pointerdown", (event) => {
       if (event.button !== 0) return;
       press = { x: event.clientX, y: event.clientY, from: store.get().viewpoint };
       dragged = false;
       canvas.setPointerCapture(event.pointerId);
     });
-    canvas.addEventListener('pointermove', (event) => {
+    canvas.addEventListener("pointermove", (event) => {
       if (press === null) {
         store.set({ hovered: this.pixelAt(event) });
         return;
@@ -89,30 +89,30 @@ export class PicturePanel {
       const shown = canvas.getBoundingClientRect();
       this.moves.drag(press.from, dx / shown.width, dy / shown.width);
     });
-    canvas.addEventListener('pointerup', (event) => {
+    canvas.addEventListener("pointerup", (event) => {
       if (press === null) return;
       press = null;
       if (dragged) this.moves.settle();
       else {
         const pixel = this.pixelAt(event);
-        if (pixel !== null) void this.pick(pixel).catch((reason) => this.session.report(oneLine(reason)));
+        if (pixel !== null) void this.pick(pixel).catch((reason) => this.session.report(reason));
       }
     });
-    canvas.addEventListener('pointercancel', () => {
+    canvas.addEventListener("pointercancel", () => {
       press = null;
       this.moves.settle();
     });
-    canvas.addEventListener('pointerleave', () => store.set({ hovered: null }));
-    canvas.addEventListener('keydown', (event) => this.onKey(event));
+    canvas.addEventListener("pointerleave", () => store.set({ hovered: null }));
+    canvas.addEventListener("keydown", (event) => this.onKey(event));
     canvas.addEventListener(
-      'wheel',
+      "wheel",
       (event) => {
         event.preventDefault();
         this.enlarge(Math.exp(-event.deltaY * 0.0015), event.clientX, event.clientY);
       },
       { passive: false },
     );
-    canvas.addEventListener('dblclick', () => this.enlarge(0, 0, 0));
+    canvas.addEventListener("dblclick", () => this.enlarge(0, 0, 0));
   }
 
   private onKey(event: KeyboardEvent): void {
@@ -126,23 +126,24 @@ export class PicturePanel {
       const { width, height } = scene.views[viewpoint.view]!;
       const from = picked ?? { u: width / 2, v: height / 2 };
       const pixel = { view: viewpoint.view, u: from.u + arrow[0], v: from.v + arrow[1] };
-      void this.pick(pixel).catch((reason) => this.session.report(oneLine(reason)));
+      void this.pick(pixel).catch((reason) => this.session.report(reason));
     } else if (arrow !== undefined) this.moves.byKey(...arrow);
-    else if (event.key === 'Home') this.moves.toView(scene.top_view);
-    else if (event.key === '+' || event.key === '=') this.enlarge(1.25, x, y);
-    else if (event.key === '-') this.enlarge(0.8, x, y);
+    else if (event.key === "Home") this.moves.toView(scene.top_view);
+    else if (event.key === "+" || event.key === "=") this.enlarge(1.25, x, y);
+    else if (event.key === "-") this.enlarge(0.8, x, y);
     else return;
     event.preventDefault();
   }
 
   /** The pixel of the present view under the pointer; null between views and outside. */
   private pixelAt(event: MouseEvent): PixelOfView | null {
-    const { viewpoint } = this.session.store.get();
+    const { scene, store } = this.session;
+    const { viewpoint } = store.get();
+    const { width, height } = scene.views[viewpoint.view]!;
     const rect = this.canvas.getBoundingClientRect();
-    const u = Math.floor(((event.clientX - rect.left) / rect.width) * this.canvas.width);
-    const v = Math.floor(((event.clientY - rect.top) / rect.height) * this.canvas.height);
-    if (!viewpoint.atView || u < 0 || v < 0) return null;
-    if (u >= this.canvas.width || v >= this.canvas.height) return null;
+    const u = Math.floor(((event.clientX - rect.left) / rect.width) * width);
+    const v = Math.floor(((event.clientY - rect.top) / rect.height) * height);
+    if (!viewpoint.atView || u < 0 || v < 0 || u >= width || v >= height) return null;
     return { view: viewpoint.view, u, v };
   }
 
@@ -176,7 +177,7 @@ export class PicturePanel {
       left: `${place[0]}px`,
       top: `${place[1]}px`,
     });
-    this.canvas.style.imageRendering = fit >= 2 ? 'pixelated' : 'auto';
+    this.canvas.style.imageRendering = fit >= 2 ? "pixelated" : "auto";
   }
 
   private placeMarker(): void {
@@ -193,7 +194,7 @@ export class PicturePanel {
 
 /** What the reader can do here, in one line. */
 export function pictureHint(session: Session): string {
-  const keys = session.scene.kind === '3D' ? '← →' : '← → ↑ ↓';
-  const drag = isParallel(session.scene) ? 'drag or' : 'drag around,';
+  const keys = session.scene.kind === "3D" ? "← →" : "← → ↑ ↓";
+  const drag = isParallel(session.scene) ? "drag or" : "drag around,";
   return `${drag} ${keys} moves between views · click picks a pixel · wheel enlarges`;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Reads fields of JSON of unknown shape; whatever is wrong becomes one line with the field's path.
 
-import { SceneError } from './scene_error';
+import { SceneError } from "./scene_error";
 
 /** A value of the file together with the place where it was read. */
 export class Field {
@@ -11,46 +11,46 @@ export class Field {
   ) {}
 
   fail(expected: string): never {
-    const found = this.value === undefined ? 'is missing' : `is not ${expected}`;
+    const found = this.value === undefined ? "is missing" : `is not ${expected}`;
     throw new SceneError(`Damaged scene: ${this.path} ${found}.`);
   }
 
   /** The field `key` of an object. */
   at(key: string): Field {
-    if (typeof this.value !== 'object' || this.value === null || Array.isArray(this.value)) {
-      this.fail('an object');
+    if (typeof this.value !== "object" || this.value === null || Array.isArray(this.value)) {
+      this.fail("an object");
     }
-    const path = this.path === '' ? key : `${this.path}.${key}`;
+    const path = this.path === "" ? key : `${this.path}.${key}`;
     const object = this.value as Record<string, unknown>;
     return new Field(Object.hasOwn(object, key) ? object[key] : undefined, path);
   }
 
   /** All fields of an object. */
   entries(): [string, Field][] {
-    this.at('');
+    this.at("");
     return Object.keys(this.value as object).map((key) => [key, this.at(key)]);
   }
 
   /** The elements of a list; of `length` elements where it is given. */
   list(length?: number): Field[] {
-    if (!Array.isArray(this.value)) this.fail('a list');
+    if (!Array.isArray(this.value)) this.fail("a list");
     const list = this.value as unknown[];
     if (length !== undefined && list.length !== length) this.fail(`a list of ${length}`);
     return list.map((value, idx) => new Field(value, `${this.path}[${idx}]`));
   }
 
   string(): string {
-    if (typeof this.value !== 'string') this.fail('text');
+    if (typeof this.value !== "string") this.fail("text");
     return this.value as string;
   }
 
   number(): number {
-    if (typeof this.value !== 'number' || !Number.isFinite(this.value)) this.fail('a number');
+    if (typeof this.value !== "number" || !Number.isFinite(this.value)) this.fail("a number");
     return this.value as number;
   }
 
   positive(): number {
-    if (this.number() <= 0) this.fail('above zero');
+    if (this.number() <= 0) this.fail("above zero");
     return this.value as number;
   }
 

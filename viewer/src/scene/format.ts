@@ -5,9 +5,9 @@
 export const SCENE_VERSION = 1;
 
 /** The maps that a view may have. All but `value` are optional. */
-export type MapKind = 'value' | 'confidence' | 'level' | 'error';
+export type MapKind = "value" | "confidence" | "level" | "error";
 
-export const MAP_KINDS: readonly MapKind[] = ['value', 'confidence', 'level', 'error'];
+export const MAP_KINDS: readonly MapKind[] = ["value", "confidence", "level", "error"];
 
 /** The pinhole of a view for the size shown: x right, y down, z ahead, pixel centres at integers. */
 export interface CameraEntry {
@@ -54,10 +54,10 @@ export interface ScoreCurves {
 }
 
 export interface Scene {
-  format: 'gigaray scene';
+  format: "gigaray scene";
   version: number;
   title: string;
-  kind: '3D' | '4D' | 'unstructured';
+  kind: "3D" | "4D" | "unstructured";
   /** What value maps hold; larger is nearer. `min` and `max` are the range of the 16-bit code. */
   value: Range & { name: string; unit: string };
   /** px shown per px of the result's pictures. Values stay in full-size px per view step. */
@@ -85,5 +85,5 @@ export interface Scene {
 
 /** True for light fields whose views differ by a shift alone. */
 export function isParallel(scene: Scene): boolean {
-  return scene.kind !== 'unstructured';
+  return scene.kind !== "unstructured";
 }

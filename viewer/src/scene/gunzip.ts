@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
-import { SceneError } from './scene_error';
+import { SceneError } from "./scene_error";
 
 /** The `size` bytes of a gzip stream; `name` is for the message where it is damaged. */
 export async function gunzip(
@@ -8,7 +8,7 @@ export async function gunzip(
   size: number,
   name: string,
 ): Promise<Uint8Array<ArrayBuffer>> {
-  const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream('gzip'));
+  const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"));
   const reader = stream.getReader();
   const out = new Uint8Array(size);
   let filled = 0;

@@ -6,5 +6,5 @@ export class SceneError extends Error {}
 /** One line of whatever was thrown. */
 export function oneLine(reason: unknown): string {
   const text = reason instanceof Error ? reason.message : String(reason);
-  return text.replace(/\s+/g, ' ').trim();
+  return text.replace(/\s+/g, " ").trim();
 }

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Moves of the viewpoint: to a view, by a drag, and the short way between two places.
 
-import { cameraBetween, distance, movedCamera, position } from '../math/camera';
-import { valueOfCode } from '../math/codes';
+import { cameraBetween, distance, movedCamera, position } from "../math/camera";
+import { valueOfCode } from "../math/codes";
 import {
-  neighbour,
   nearestView,
+  neighbour,
   type Viewpoint,
   viewpointAt,
   viewpointOfView,
-} from '../math/viewpoint';
-import { isParallel } from '../scene/format';
-import type { Session } from './session';
+} from "../math/viewpoint";
+import { isParallel } from "../scene/format";
+import type { Session } from "./session";
 
 const MOVE_MS = 180;
 
@@ -26,7 +26,7 @@ export class Moves {
     const target = viewpointOfView(scene, view);
     const start = store.get().viewpoint;
     cancelAnimationFrame(this.animation);
-    if (matchMedia('(prefers-reduced-motion: reduce)').matches || !this.canWarp()) {
+    if (matchMedia("(prefers-reduced-motion: reduce)").matches || !this.canWarp()) {
       store.set({ viewpoint: target });
       return;
     }
@@ -66,10 +66,10 @@ export class Moves {
     const { scene, store, usual } = this.session;
     cancelAnimationFrame(this.animation);
     if (isParallel(scene)) {
-      const [s, t] = (['s', 't'] as const).map((axis) => {
+      const [s, t] = (["s", "t"] as const).map((axis) => {
         const places = scene.views.map((view) => view[axis]);
         const [low, high] = [Math.min(...places), Math.max(...places)];
-        const moved = start[axis] - (axis === 's' ? dx : dy) * Math.min(12, 2 * (high - low));
+        const moved = start[axis] - (axis === "s" ? dx : dy) * Math.min(12, 2 * (high - low));
         return Math.min(high, Math.max(low, moved));
       }) as [number, number];
       store.set({ viewpoint: viewpointAt(scene, s, t) });

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
-import { valueOfCode } from '../math/codes';
-import { depthOfValue, fullSizePixel } from '../math/scene_depth';
-import type { MapKind } from '../scene/format';
-import type { Session } from './session';
-import type { PixelOfView } from './view_state';
+import { valueOfCode } from "../math/codes";
+import { depthOfValue, fullSizePixel } from "../math/scene_depth";
+import type { MapKind } from "../scene/format";
+import type { Session } from "./session";
+import type { PixelOfView } from "./view_state";
 
 /** What the maps hold at a pixel. */
 export interface PixelValues {
@@ -36,13 +36,13 @@ export async function pixelValues(
   if (u < 0 || v < 0 || u >= width || v >= height) return null;
   const read = async (kind: MapKind) =>
     data.hasMap(pixel.view, kind) ? (await data.map(pixel.view, kind))[v * width + u]! : null;
-  const code = await read('value');
+  const code = await read("value");
   if (code === null) return null;
   const value = code === 0 ? null : valueOfCode(code, scene.value);
   const [confidence, level, error] = [
-    await read('confidence'),
-    await read('level'),
-    await read('error'),
+    await read("confidence"),
+    await read("level"),
+    await read("error"),
   ];
   return {
     view: name,

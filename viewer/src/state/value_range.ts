@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
-import { MAX_CODE } from '../math/codes';
-import type { Codes } from '../scene/scene_data';
+import { clampCode, MAX_CODE } from "../math/codes";
+import type { Interval } from "../math/interval";
+import type { Codes } from "../scene/scene_data";
 
 /**
  * The codes that all but the outermost 0.5 % of the estimates lie between. Colours and sliders use
@@ -22,4 +23,10 @@ export function usualCodes(codes: Codes): [number, number] {
   let high = MAX_CODE;
   for (let seen = counts[high]!; seen <= skipped; seen += counts[--high]!);
   return low < high ? [low, high] : [Math.max(1, low - 1), Math.min(MAX_CODE, low + 1)];
+}
+
+/** The interval that sliders span: the usual codes with some room, so that they are fine. */
+export function sliderCodes(usual: [number, number]): Interval {
+  const room = Math.round((usual[1] - usual[0]) * 0.05) + 1;
+  return { far: clampCode(usual[0] - room), near: clampCode(usual[1] + room) };
 }

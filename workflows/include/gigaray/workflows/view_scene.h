@@ -7,10 +7,13 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "gigaray/core/api.h"
 #include "gigaray/core/run_control.h"
+#include "gigaray/engine/depth_options.h"
+#include "gigaray/engine/reconstruct.h"
 #include "gigaray/workflows/input.h"
 #include "gigaray/workflows/result.h"
 
@@ -18,6 +21,12 @@ namespace GIGARAY_API gigaray {
 
 /// Takes a file of the scene: a name without folders, and its bytes.
 using TakeSceneFile = std::function<void(const std::string& name, std::string bytes)>;
+
+/// How score curves of the top view are found, on a coarse grid: a few seconds.
+struct SceneCurves {
+  DepthOptions options;  ///< with the range that is searched
+  BackendChoice backend = {};
+};
 
 struct ViewSceneRequest {
   /// Views whose depth is shown, as parse_views() takes them. Empty: the top view and the eight
@@ -27,10 +36,11 @@ struct ViewSceneRequest {
   int jpeg_quality = 85;  ///< 1 … 100
   /// Another result with the same views, to be held against this one; may be none.
   std::shared_ptr<DepthScene> compare = {};
-  std::filesystem::path truth = {};  ///< as find_truth() takes it; empty: no errors are shown
-  std::filesystem::path cloud = {};  ///< .ply; empty: none
-  std::filesystem::path mesh = {};   ///< .glb; empty: none
-  bool is_live = false;              ///< a server answers what the page asks
+  std::filesystem::path truth = {};        ///< as find_truth() takes it; empty: no errors are shown
+  std::filesystem::path cloud = {};        ///< .ply; empty: none
+  std::filesystem::path mesh = {};         ///< .glb; empty: none
+  std::optional<SceneCurves> curves = {};  ///< empty: there are none
+  bool is_live = false;                    ///< a server answers what the page asks
 };
 
 /// Hands the files of a result's scene to `take`, one after the other, and returns scene.json.

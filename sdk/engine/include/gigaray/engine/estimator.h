@@ -46,6 +46,11 @@ class Estimator {
   /// As gigaray::probe(), and throws what that throws. On the first device.
   ScoreCurve probe(const LightField& light_field, const DepthOptions& options, int view_idx, int u,
                    int v, const RunControl& control) const;
+  /// The same of many pixels of a view, in their order: the pictures are looked at once, and those
+  /// of one row are done together.
+  std::vector<ScoreCurve> probe(const LightField& light_field, const DepthOptions& options,
+                                int view_idx, const std::vector<PixelIndex>& pixels,
+                                const RunControl& control) const;
 
   const std::vector<Device>& devices() const { return devices_; }  ///< Empty: the reference.
 
@@ -61,8 +66,9 @@ class Estimator {
   /// seen: pictures as the engine sees them.
   CoarseGuide find_guide(const LightField& seen, const DepthOptions& options,
                          const RunControl& control) const;
-  ScoreCurve compute_curve(const LightField& light_field, const DepthOptions& options, int view_idx,
-                           int u, int v, const RunControl& control) const;
+  std::vector<ScoreCurve> compute_curves(const LightField& light_field, const DepthOptions& options,
+                                         int view_idx, const std::vector<PixelIndex>& pixels,
+                                         const RunControl& control) const;
 
   std::vector<Device> devices_;
 };

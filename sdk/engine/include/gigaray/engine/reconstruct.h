@@ -146,6 +146,12 @@ struct ScoreCurve {
   std::vector<Radiance> samples;
 };
 
+/// A pixel of a view, px; (0, 0) is the top left one.
+struct PixelIndex {
+  int u = 0;
+  int v = 0;
+};
+
 /// The score curve of pixel (u, v) of a view at level 0, with all hypotheses. Checks a direction
 /// that is only assumed as reconstruct() does.
 ScoreCurve probe(const LightField& light_field, const DepthOptions& options,
