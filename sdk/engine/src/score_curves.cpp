@@ -72,7 +72,7 @@ void CurvesOfView::load(int v, const RunControl& control) {
   encoded_.resize(rows_.size() * loaded * line());
   std::vector<std::uint8_t> mask(pixels.has_mask() ? encoded_.size() / 3 : 0);
   for (std::size_t i = 0; i < loaded; ++i) {
-    control.progress("decode", double(i), double(loaded));
+    control.throw_if_cancelled();
     Image<std::uint16_t> picture = read_view(run_.light_field, partners_[i]);
     const auto shown = take_mask(picture);
     for (int y = rows_.begin; y < rows_.end; ++y) {
