@@ -10,6 +10,7 @@
 
 #include "command.h"
 #include "gigaray/adapters/atomic_output.h"
+#include "gigaray/adapters/depth_result.h"
 #include "gigaray/workflows/stated_options.h"
 #include "gigaray/workflows/view_page.h"
 #include "gigaray/workflows/view_server.h"
@@ -40,8 +41,23 @@ struct Settings {
 struct Shown {
   std::string title;
   MakeScene make_scene;
-  LiveProbes probes;
+  CurveSource probes;
 };
+
+/// With the options that the result was asked for, in the range that it searched.
+CurveSource curves_of_result(const Settings& settings, const DepthScene& depth) {
+  const fs::path& path = settings.place.path;
+  CurveSource source{depth.light_field(), auto_options(), {"opencl", settings.device}};
+  if (fs::is_directory(path)) {
+    source.options = options_of_file(path);
+    // Of a few views the pictures of all had part in the depth.
+    if (depth.light_field().kind != LightFieldKind::kUnstructured)
+      source.light_field = DepthResult(path).open_input(settings.pictures);
+  }
+  source.options.views.clear();
+  source.options.disparity = depth.range();
+  return source;
+}
 
 Shown shown_result(const Settings& settings, const RunControl& control) {
   const fs::path& path = settings.place.path;
@@ -50,11 +66,8 @@ Shown shown_result(const Settings& settings, const RunControl& control) {
   ViewSceneRequest request = settings.scene;
   if (!settings.compare.empty())
     request.compare = std::make_shared<DepthScene>(ResultRequest{settings.compare, {}, 0, false});
-  LiveProbes probes{depth->light_field(),
-                    fs::is_directory(path) ? options_of_file(path) : auto_options(),
-                    settings.device};
-  probes.options.disparity = depth->range();
-  if (!request.is_live) request.curves = SceneCurves{probes.options, {"opencl", settings.device}};
+  CurveSource probes = curves_of_result(settings, *depth);
+  if (!request.is_live) request.curves = probes;
   return {path.filename().string(),
           [depth, request, &control](const TakeSceneFile& take) {
             return view_scene(*depth, request, take, control);
@@ -78,7 +91,7 @@ Shown shown_input(const Settings& settings, const RunControl& control) {
             return view_scene(input->light_field, input->request.path.string(), request, take,
                               control);
           },
-          {input->light_field, auto_options(), settings.device}};
+          {input->light_field, auto_options(), {"opencl", settings.device}}};
 }
 
 std::string size_text(std::uintmax_t bytes) {

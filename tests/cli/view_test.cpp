@@ -60,6 +60,18 @@ TEST_F(ViewCommand, ALightFieldIsShownWithoutDepth) {
   EXPECT_NE(text_of("made.html").find("\"segment\":null"), std::string::npos);
 }
 
+TEST_F(ViewCommand, CurvesAreThoseOfAllViewsEvenWhereFewHaveDepth) {
+  ASSERT_EQ(run("depth made -o few --views 1,3").exit_code, 0);
+  const Result result = run("view few -o few");
+  EXPECT_EQ(result.exit_code, 2) << "its own input is no place for it";
+  ASSERT_EQ(run("view few -o site").exit_code, 0);
+  const auto scene = json::parse(text_of("site/scene.json"));
+  EXPECT_EQ(scene["views"].size(), 2u);
+  ASSERT_FALSE(scene["scores"].is_null());
+  EXPECT_EQ(scene["scores"]["view"], scene["top_view"]);
+  EXPECT_GT(scene["scores"]["hypotheses"]["count"].get<int>(), 1);
+}
+
 TEST_F(ViewCommand, ASparseFileIsAResult) {
   ASSERT_EQ(run("encode made -o made.grl").exit_code, 0);
   const Result result = run("view made.grl -o page.html");

@@ -21,7 +21,7 @@ class ViewServerTest : public WorkflowsTest {
   void SetUp() override {
     ASSERT_TRUE(has_view_page()) << "nodejs and npm build it";
     input = open_input({.path = grid()}, control);
-    LiveProbes probes{input.light_field, prepare_depth(input, {}, control)};
+    CurveSource probes{input.light_field, prepare_depth(input, {}, control)};
     server = std::make_unique<ViewServer>(
         "grid",
         [&](const TakeSceneFile& take) {

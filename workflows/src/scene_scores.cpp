@@ -9,6 +9,7 @@
 
 #include "gigaray/core/error.h"
 #include "gigaray/engine/estimator.h"
+#include "gigaray/workflows/view_list.h"
 #include "scene_maps.h"
 
 namespace gigaray {
@@ -42,9 +43,10 @@ std::string bytes_of(const std::vector<ScoreCurve>& curves) {
 
 }  // namespace
 
-ordered_json scene_scores(const LightField& light_field, const SceneCurves& how, int view,
-                          int width, int height, double scale, const TakeSceneFile& take,
+ordered_json scene_scores(const CurveSource& source, int view, const std::string& name, int width,
+                          int height, double scale, const TakeSceneFile& take,
                           const RunControl& control) {
+  const LightField& light_field = source.light_field;
   const Grid grid(width, height);
   std::vector<PixelIndex> pixels;
   const auto full = [&](int shown, int size) {
@@ -56,7 +58,9 @@ ordered_json scene_scores(const LightField& light_field, const SceneCurves& how,
                         full(std::min(grid.place(row), height - 1), light_field.height)});
   std::vector<ScoreCurve> curves;
   try {
-    curves = Estimator::of(how.backend).probe(light_field, how.options, view, pixels, control);
+    curves =
+        Estimator::of(source.backend)
+            .probe(light_field, source.options, parse_view(name, light_field), pixels, control);
   } catch (const Error& error) {
     if (error.code() != ErrorCode::kDevice) throw;
     control.message(std::string("no score curves: ") + error.what());

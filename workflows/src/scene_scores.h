@@ -9,10 +9,10 @@
 
 namespace gigaray {
 
-/// The part "scores" of scene.json: curves of a view, of which width × height px are shown, `scale`
-/// px for one of the light field, on a coarse grid.
-/// Hands their file to `take`. Null with a message where there is no device.
-nlohmann::ordered_json scene_scores(const LightField& light_field, const SceneCurves& how, int view,
+/// The part "scores" of scene.json: curves of view number `view` of the scene, `name`, of which
+/// width × height px are shown, `scale` px for one of the light field, on a coarse grid. Hands
+/// their file to `take`. Null with a message where there is no device.
+nlohmann::ordered_json scene_scores(const CurveSource& source, int view, const std::string& name,
                                     int width, int height, double scale, const TakeSceneFile& take,
                                     const RunControl& control);
 

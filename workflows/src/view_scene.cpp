@@ -266,8 +266,8 @@ ordered_json SceneMaker::views_json() {
 ordered_json SceneMaker::scores_json() {
   const int view = depth_ ? depth_->top_view() : centre_view(full_);
   const Camera shown = camera(view);
-  return scene_scores(full_, *request_.curves, view, shown.width, shown.height, scale(), take_,
-                      control_);
+  return scene_scores(*request_.curves, view, full_.views[std::size_t(view)].name, shown.width,
+                      shown.height, scale(), take_, control_);
 }
 
 ordered_json SceneMaker::compare_json() {

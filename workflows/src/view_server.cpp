@@ -71,7 +71,7 @@ int pixel_of(const httplib::Request& request, const char* name) {
 struct ViewServer::State {
   httplib::Server server;
   std::map<std::string, std::string> files;  ///< by path, "/data/view_0000.jpg"
-  LiveProbes probes;
+  CurveSource probes;
   std::optional<Estimator> estimator;  ///< from the first probe on
   std::mutex probing;                  ///< one at a time: a probe takes all cores
   RunControl control;                  ///< of probes
@@ -91,7 +91,7 @@ void ViewServer::State::probe(const httplib::Request& request, httplib::Response
     const int view = parse_view(request.get_param_value("view"), light_field);
     const int u = pixel_of(request, "u"), v = pixel_of(request, "v");
     const std::scoped_lock lock(probing);
-    if (!estimator) estimator.emplace(Device::open(probes.device));
+    if (!estimator) estimator.emplace(Estimator::of(probes.backend));
     answer =
         json_of(estimator->probe(light_field, probes.options, view, u, v, control), light_field);
   } catch (const Error& error) {
@@ -102,7 +102,7 @@ void ViewServer::State::probe(const httplib::Request& request, httplib::Response
                        "application/json");
 }
 
-ViewServer::ViewServer(const std::string& title, const MakeScene& make_scene, LiveProbes probes,
+ViewServer::ViewServer(const std::string& title, const MakeScene& make_scene, CurveSource probes,
                        int port)
     : state_(std::make_unique<State>()) {
   State& state = *state_;

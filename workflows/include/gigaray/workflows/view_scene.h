@@ -22,9 +22,10 @@ namespace GIGARAY_API gigaray {
 /// Takes a file of the scene: a name without folders, and its bytes.
 using TakeSceneFile = std::function<void(const std::string& name, std::string bytes)>;
 
-/// How score curves of the top view are found, on a coarse grid: a few seconds.
-struct SceneCurves {
-  DepthOptions options;  ///< with the range that is searched
+/// What score curves are found with. Views are found in it by their names.
+struct CurveSource {
+  LightField light_field;  ///< with pictures: all views that the depth was computed of
+  DepthOptions options;    ///< with the range that is searched
   BackendChoice backend = {};
 };
 
@@ -36,11 +37,12 @@ struct ViewSceneRequest {
   int jpeg_quality = 85;  ///< 1 … 100
   /// Another result with the same views, to be held against this one; may be none.
   std::shared_ptr<DepthScene> compare = {};
-  std::filesystem::path truth = {};        ///< as find_truth() takes it; empty: no errors are shown
-  std::filesystem::path cloud = {};        ///< .ply; empty: none
-  std::filesystem::path mesh = {};         ///< .glb; empty: none
-  std::optional<SceneCurves> curves = {};  ///< empty: there are none
-  bool is_live = false;                    ///< a server answers what the page asks
+  std::filesystem::path truth = {};  ///< as find_truth() takes it; empty: no errors are shown
+  std::filesystem::path cloud = {};  ///< .ply; empty: none
+  std::filesystem::path mesh = {};   ///< .glb; empty: none
+  /// For curves of the top view on a coarse grid, a few seconds; empty: there are none.
+  std::optional<CurveSource> curves = {};
+  bool is_live = false;  ///< a server answers what the page asks
 };
 
 /// Hands the files of a result's scene to `take`, one after the other, and returns scene.json.

@@ -16,19 +16,12 @@
 
 namespace GIGARAY_API gigaray {
 
-/// What is asked for the score curves of the page.
-struct LiveProbes {
-  LightField light_field;   ///< with pictures
-  DepthOptions options;     ///< with the range that is searched
-  std::string device = {};  ///< as Device::open() takes it
-};
-
 /// Serves a scene on 127.0.0.1 alone, from memory: its own files, and probes; everything else is
 /// refused, and so is who asks for another host's name.
 class ViewServer {
  public:
   /// port: 0: a free one. Throws Error(kIo) when the port can't be had, and what make_scene throws.
-  ViewServer(const std::string& title, const MakeScene& make_scene, LiveProbes probes, int port);
+  ViewServer(const std::string& title, const MakeScene& make_scene, CurveSource probes, int port);
   ~ViewServer();
   ViewServer(const ViewServer&) = delete;
   ViewServer& operator=(const ViewServer&) = delete;
