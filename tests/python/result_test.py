@@ -170,6 +170,21 @@ def test_cloud_and_surface(scene, tmp_path):
         out.mesh(method="best")
 
 
+def test_the_page_shows_the_result(scene, tmp_path):
+    folder, _, out = scene
+    page = out.view(title="planes", views=[0, 2], truth=folder)
+    start = page.html.index('<script type="application/json" id="gigaray-scene">')
+    text = page.html[page.html.index(">", start) + 1:page.html.index("</script>", start)]
+    shown = json.loads(text)
+    assert [view["maps"] is not None for view in shown["views"]] == [True, False, True, False, False]
+    assert shown["views"][2]["maps"]["error"] in page.html
+    assert page._repr_html_().startswith("<iframe srcdoc=")
+    page.save(tmp_path / "page.html")
+    assert (tmp_path / "page.html").read_text() == page.html
+    with pytest.raises(gg.Error, match="nothing"):
+        out.view(truth=tmp_path / "nothing")
+
+
 def test_arrays_of_a_cloud_outlive_it(scene):
     _, _, out = scene
     positions = out.cloud().positions
