@@ -2,6 +2,7 @@
 // node build.mjs --outdir=DIR: viewer.js, viewer.css and the template index.html.
 
 import { copyFileSync, mkdirSync, readFileSync } from "node:fs";
+import { createRequire } from "node:module";
 import { dirname, join } from "node:path";
 import { fileURLToPath } from "node:url";
 import { build } from "esbuild";
@@ -10,6 +11,10 @@ const here = dirname(fileURLToPath(import.meta.url));
 const argument = process.argv.find((text) => text.startsWith("--outdir="));
 const outdir = argument === undefined ? join(here, "build") : argument.slice("--outdir=".length);
 mkdirSync(outdir, { recursive: true });
+
+// A page holds three, whose licence goes with every copy of it.
+const three = dirname(dirname(createRequire(import.meta.url).resolve("three")));
+const license = readFileSync(join(three, "LICENSE"), "utf8").trim();
 
 await build({
   entryPoints: { viewer: join(here, "src/main.ts") },
@@ -21,6 +26,7 @@ await build({
   target: "es2020",
   charset: "ascii",
   legalComments: "eof",
+  footer: { js: `/*! three.js\n${license}\n*/` },
   logLevel: "warning",
 });
 copyFileSync(join(here, "src/index.html"), join(outdir, "index.html"));
