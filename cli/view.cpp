@@ -161,7 +161,8 @@ Run view_command(CLI::App& app) {
   app.add_option("--compare", settings->compare, "Another result of the same light field, to wipe")
       ->type_name("OTHER");
   app.add_option("--truth", settings->scene.truth,
-                 "True disparity, as `evaluate` takes it, for a picture of the errors")
+                 "True disparity, of photographs true depth, as `evaluate` takes it, for a picture "
+                 "of the errors")
       ->type_name("TRUTH");
   app.add_option("--cloud", settings->scene.cloud, "Points of `gigaray cloud` to show, .ply")
       ->type_name("F.ply");

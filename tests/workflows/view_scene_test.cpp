@@ -164,6 +164,19 @@ TEST_F(ViewSceneTest, ErrorsAndAnotherResultAreMapsOfTheSameCode) {
   EXPECT_TRUE(files.contains(json["compare"]["maps"][name]["value"]));
 }
 
+TEST_F(ViewSceneTest, ErrorsOfPhotographsAreThoseOfInverseDepth) {
+  const std::filesystem::path place = walk();
+  scene_of(place);
+  const json json = made({.views = "centre", .truth = place});
+  const auto& view = json["views"][std::size_t(scene->top_view())];
+  const auto errors = codes_of(files.at(view["maps"]["error"]), 93, 63);
+  const FloatMap depth =
+      read_float_map(place / "truth" / (view["name"].get<std::string>() + ".pfm"));
+  const FloatMap map = scene->disparity(scene->top_view());
+  const double least = json["error"]["min"], step = (double(json["error"]["max"]) - least) / 65534;
+  EXPECT_NEAR(least + (errors(46, 31) - 1) * step, map(46, 31) - 1 / depth(46, 31), step);
+}
+
 TEST_F(ViewSceneTest, OfALightFieldAloneHasNoMaps) {
   const OpenedInput input = open_input({.path = grid()}, control);
   const json json = json::parse(view_scene(

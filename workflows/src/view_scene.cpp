@@ -165,7 +165,7 @@ SceneMaker::ShownMaps SceneMaker::read_maps(DepthScene& scene, int view) const {
           {}};
 }
 
-/// Estimate − truth; empty: the truth of this view is not known.
+/// Estimate − truth, in the unit of the estimate; empty: the truth of this view is not known.
 FloatMap SceneMaker::error_of(int view, const FloatMap& estimate) const {
   if (request_.truth.empty()) return {};
   fs::path path = request_.truth / "truth" / (full_.views[std::size_t(view)].name + ".pfm");
@@ -180,8 +180,11 @@ FloatMap SceneMaker::error_of(int view, const FloatMap& estimate) const {
                 fmt::format("{}: is {} × {} px, the pictures are {} × {} px", path_text(path),
                             truth.width(), truth.height(), own.width, own.height));
   FloatMap error = picked(truth, estimate.width(), estimate.height());
-  for (std::size_t i = 0; i < error.size(); ++i)
-    error.data()[i] = estimate.data()[i] - error.data()[i];
+  for (std::size_t i = 0; i < error.size(); ++i) {
+    // The truth of photographs is depth; where there is none it is 0.
+    const float known = is_posed() ? 1 / error.data()[i] : error.data()[i];
+    error.data()[i] = std::isfinite(known) ? estimate.data()[i] - known : kNoEstimate;
+  }
   return error;
 }
 

@@ -37,7 +37,9 @@ struct ViewSceneRequest {
   int jpeg_quality = 85;  ///< 1 … 100
   /// Another result with the same views, to be held against this one; may be none.
   std::shared_ptr<DepthScene> compare = {};
-  std::filesystem::path truth = {};  ///< as find_truth() takes it; empty: no errors are shown
+  /// As find_truth() takes it, or a folder with truth/VIEW.pfm; of photographs depth. Empty: no
+  /// errors are shown.
+  std::filesystem::path truth = {};
   std::filesystem::path cloud = {};  ///< .ply; empty: none
   std::filesystem::path mesh = {};   ///< .glb; empty: none
   /// For curves of the top view on a coarse grid, a few seconds; empty: there are none.
