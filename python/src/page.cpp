@@ -6,6 +6,7 @@
 #include <pybind11/stl/filesystem.h>
 
 #include <mutex>
+#include <optional>
 #include <utility>
 
 #include "gigaray/workflows/view_page.h"
@@ -16,13 +17,14 @@ namespace gigaray::python {
 namespace {
 
 std::string page(const ResultPointer& result, const std::string& title, const std::string& views,
-                 int max_size, const ResultPointer& compare, const std::filesystem::path& truth) {
+                 int max_size, const std::optional<ResultPointer>& compare,
+                 const std::filesystem::path& truth) {
   result->require_pictures();
   ViewSceneRequest request;
   request.views = views;
   request.max_size = max_size;
   request.truth = truth;
-  if (compare) request.compare = compare->scene;
+  if (compare) request.compare = (*compare)->scene;
   return run([=](const RunControl& control) {
     const std::lock_guard lock(*result->turn);
     return view_page(title, [&](const TakeSceneFile& take) {
