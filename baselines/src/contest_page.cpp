@@ -2,14 +2,14 @@
 // Copyright (c) 2026 The Gigaray authors
 // The page of `gigaray compare`.
 #include <fmt/format.h>
-#include <boost/archive/iterators/base64_from_binary.hpp>
-#include <boost/archive/iterators/transform_width.hpp>
 
 #include <fstream>
 #include <iterator>
+#include <utility>
 
 #include "gigaray/baselines/contest_report.h"
 #include "gigaray/core/error.h"
+#include "gigaray/workflows/html.h"
 
 namespace gigaray {
 namespace {
@@ -33,44 +33,17 @@ figure { margin: 0 } figcaption { font-size: .85em; color: #555 }
 p.note { color: #555; font-size: .9em }
 )";
 
-std::string escaped(const std::string& text) {
-  std::string result;
-  for (const char c : text) switch (c) {
-      case '&':
-        result += "&amp;";
-        break;
-      case '<':
-        result += "&lt;";
-        break;
-      case '>':
-        result += "&gt;";
-        break;
-      case '"':
-        result += "&quot;";
-        break;
-      default:
-        result += c;
-    }
-  return result;
-}
-
 /// The file as a data: URL.
 std::string embedded(const fs::path& path) {
-  using namespace boost::archive::iterators;
   std::ifstream file(path, std::ios::binary);
   std::string bytes{std::istreambuf_iterator<char>(file), {}};
   if (!file || bytes.empty()) throw Error(ErrorCode::kIo, path.string() + ": can't be read again");
-  const std::size_t padding = (3 - bytes.size() % 3) % 3;
-  bytes.append(padding, '\0');
-  using Base64 = base64_from_binary<transform_width<std::string::const_iterator, 6, 8>>;
-  std::string text{Base64(bytes.cbegin()), Base64(bytes.cend())};
-  text.replace(text.size() - padding, padding, padding, '=');
-  return "data:image/png;base64," + text;
+  return "data:image/png;base64," + base64(std::move(bytes));
 }
 
 std::string figure(const fs::path& path, const std::string& caption) {
   return fmt::format("<figure><img src=\"{}\" alt=\"{}\"><figcaption>{}</figcaption></figure>\n",
-                     embedded(path), escaped(caption), escaped(caption));
+                     embedded(path), html_text(caption), html_text(caption));
 }
 
 /// The last part of a path that may end with a slash.
@@ -82,7 +55,7 @@ std::string name_of(const fs::path& path) {
 std::string table_of(const Contest& contest, const std::vector<Contestant>& contestants) {
   const auto rows = contest_table(contest, contestants);
   std::string text = "<table><thead><tr>";
-  for (const std::string& cell : rows.front()) text += "<th>" + escaped(cell) + "</th>";
+  for (const std::string& cell : rows.front()) text += "<th>" + html_text(cell) + "</th>";
   text += "</tr></thead><tbody>\n";
   // The best of each column; more is better of what is filled alone.
   const auto value = [&](std::size_t row, std::size_t column) {
@@ -98,7 +71,7 @@ std::string table_of(const Contest& contest, const std::vector<Contestant>& cont
                        : !(value(other, column) < value(row, column));
       }
       text += fmt::format("<td{}>{}</td>", is_best ? " class=\"best\"" : "",
-                          escaped(rows[row][column]));
+                          html_text(rows[row][column]));
     }
     text += "</tr>\n";
   }
@@ -110,10 +83,10 @@ std::string agreement_table(const std::vector<Contestant>& contestants) {
       "<h2>Agreement</h2><p>% of pixels where two maps differ by no more than {} px per view "
       "step.</p><div class=\"wide\"><table><thead><tr><th></th>",
       kAgreement);
-  for (const Contestant& b : contestants) text += "<th>" + escaped(b.name) + "</th>";
+  for (const Contestant& b : contestants) text += "<th>" + html_text(b.name) + "</th>";
   text += "<th></th></tr></thead><tbody>\n";
   for (const Contestant& a : contestants) {
-    text += "<tr><td>" + escaped(a.title) + "</td>";
+    text += "<tr><td>" + html_text(a.title) + "</td>";
     for (const Contestant& b : contestants)
       text += fmt::format("<td>{:.1f}</td>", agreement(a.disparity, b.disparity, kAgreement));
     text += "<td></td></tr>\n";
@@ -137,16 +110,16 @@ std::string close_ups_of(const fs::path& above, const fs::path& below, std::size
 std::string method_section(const fs::path& folder, const Contest& contest,
                            const Contestant& contestant, std::size_t squares) {
   const fs::path own = folder / contestant.name;
-  std::string text =
-      fmt::format("<h3>{}</h3><p class=\"note\">{}. {}. Looked at {}; {:.2f} s.",
-                  escaped(contestant.title), escaped(contestant.reference),
-                  escaped(contestant.parameters), escaped(contestant.views), contestant.seconds);
+  std::string text = fmt::format("<h3>{}</h3><p class=\"note\">{}. {}. Looked at {}; {:.2f} s.",
+                                 html_text(contestant.title), html_text(contestant.reference),
+                                 html_text(contestant.parameters), html_text(contestant.views),
+                                 contestant.seconds);
   if (contestant.choices.size() > 1) {
     text += fmt::format(" {} of the choices of views: ",
                         contest.truth ? "BadPix 0.07" : "Photo-consistency");
     for (const Choice& choice : contestant.choices)
       text += fmt::format("{}{} {:.2f}", &choice == contestant.choices.data() ? "" : ", ",
-                          escaped(choice.views), choice.measure);
+                          html_text(choice.views), choice.measure);
     text += ".";
   }
   text += "</p>\n<div class=\"row\"><div class=\"map\">" +
@@ -167,13 +140,13 @@ std::string contest_page(const fs::path& folder, const Contest& contest,
       "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
       "content=\"width=device-width\"><title>{0}</title><style>{1}</style></head><body>\n"
       "<h1>{0}</h1>\n",
-      escaped(title), kStyle);
+      html_text(title), kStyle);
   text += fmt::format(
       "<p>{} {} views of {} × {} ({}), depth of view {}, disparities {:.3g} … {:.3g} px per view "
       "step. {}, {}. Times hold the reading of the pictures.{}</p>\n",
       light_field.num_views(), to_string(light_field.kind), light_field.width, light_field.height,
-      escaped(light_field.format), escaped(light_field.views[contest.view].name), contest.range.min,
-      contest.range.max, escaped(facts.program), escaped(facts.machine),
+      html_text(light_field.format), html_text(light_field.views[contest.view].name),
+      contest.range.min, contest.range.max, html_text(facts.program), html_text(facts.machine),
       contest.repeats == 1 ? ""
                            : fmt::format(" Times are medians of {} runs, which gave the same maps.",
                                          contest.repeats));
@@ -187,7 +160,7 @@ std::string contest_page(const fs::path& folder, const Contest& contest,
               ? fmt::format(
                     "<p>Truth: {}. {} Of the choices of views that had the least BadPix 0.07 "
                     "was taken.</p>",
-                    escaped(contest.truth_place.filename().string()),
+                    html_text(contest.truth_place.filename().string()),
                     contest.is_pair()
                         ? ""
                         : fmt::format("{} px at the border are left out.", contest.border()))
@@ -198,7 +171,7 @@ std::string contest_page(const fs::path& folder, const Contest& contest,
                     "had the least was taken.</p>");
   text += "<ul>";
   for (const std::string& sentence : verdict(contest, contestants))
-    text += "<li>" + escaped(sentence) + "</li>";
+    text += "<li>" + html_text(sentence) + "</li>";
   text += "</ul>\n" + table_of(contest, contestants);
   if (!contest.truth) text += agreement_table(contestants);
 

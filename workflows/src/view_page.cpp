@@ -3,12 +3,11 @@
 #include "gigaray/workflows/view_page.h"
 
 #include <array>
-#include <boost/archive/iterators/base64_from_binary.hpp>
-#include <boost/archive/iterators/transform_width.hpp>
 #include <string_view>
 #include <utility>
 
 #include "gigaray/core/error.h"
+#include "gigaray/workflows/html.h"
 #include "page_template.h"
 #include "viewer_bundle.h"
 
@@ -16,33 +15,6 @@ namespace gigaray {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string escaped(const std::string& text) {
-  std::string result;
-  for (const char c : text) {
-    if (c == '&')
-      result += "&amp;";
-    else if (c == '<')
-      result += "&lt;";
-    else if (c == '>')
-      result += "&gt;";
-    else if (c == '"')
-      result += "&quot;";
-    else
-      result += c;
-  }
-  return result;
-}
-
-std::string base64(std::string bytes) {
-  using namespace boost::archive::iterators;
-  using Base64 = base64_from_binary<transform_width<std::string::const_iterator, 6, 8>>;
-  const std::size_t padding = (3 - bytes.size() % 3) % 3;
-  bytes.append(padding, '\0');
-  std::string text{Base64(bytes.cbegin()), Base64(bytes.cend())};
-  text.replace(text.size() - padding, padding, padding, '=');
-  return text;
-}
 
 /// JSON within a script element: nothing in it ends the element.
 std::string within_script(const std::string& json) {
@@ -63,7 +35,7 @@ std::string page_with(const std::string& title, const std::string& scene) {
   if (!has_view_page())
     throw Error(ErrorCode::kDevice,
                 "this build of gigaray has no page: install nodejs and npm and build it again");
-  const std::string name = escaped(title);
+  const std::string name = html_text(title);
   // In the order in which they stand in the page.
   const std::array<std::pair<std::string_view, std::string_view>, 4> places{
       {{"<!--gigaray:title-->", name},
